@@ -92,31 +92,24 @@ std::uint64_t exercise(Output<Message> (*step)(const Params&, State&, const Inpu
   return digest.value();
 }
 
-// Room for one robot of any algorithm: a robot's memory is known when it is built.
-union Memory {
-  constexpr Memory() noexcept : tree() {}
-  TreeState tree;
-  HealingState healing;
-  ConvoyState convoy;
-};
+// Room for one robot of any algorithm: convoy's state has the others' in it. A robot's memory is known when it is
+// built.
+using Memory = ConvoyState;
 
 // Every algorithm with every drive, as connector and as worker; names and results go to `report`.
 inline void exercise_all(Memory& memory, void (*report)(const char* name, std::uint64_t digest) noexcept) noexcept {
   for (const Drive drive : {Drive::differential, Drive::holonomic}) {
     for (const bool worker : {false, true}) {
+      const auto begin = [&]() -> Memory& { return *new (&memory) Memory(initial_convoy_state(0, worker, false)); };
       const auto as_tree = [&](const char* name, auto step, HealingParams (*defaults)() noexcept) {
         HealingParams params = defaults();
         params.drive = drive;
-        // NOLINTNEXTLINE(cppcoreguidelines-pro-type-union-access): one robot at a time
-        auto& state = *new (&memory.tree) TreeState(initial_tree_state(0, worker, false));
-        report(name, exercise<TreeMessage, TreeParams>(step, params, state));
+        report(name, exercise<TreeMessage, TreeParams, TreeState>(step, params, begin()));
       };
       const auto as_healing = [&](const char* name, auto step, HealingParams (*defaults)() noexcept) {
         HealingParams params = defaults();
         params.drive = drive;
-        // NOLINTNEXTLINE(cppcoreguidelines-pro-type-union-access): one robot at a time
-        auto& state = *new (&memory.healing) HealingState(initial_healing_state(0, worker, false));
-        report(name, exercise<HealingMessage>(step, params, state));
+        report(name, exercise<HealingMessage, HealingParams, HealingState>(step, params, begin()));
       };
       as_tree("outwards, literal", outwards_literal_step, outwards_defaults);
       as_healing("outwards", outwards_step, outwards_defaults);
@@ -124,9 +117,7 @@ inline void exercise_all(Memory& memory, void (*report)(const char* name, std::u
       as_healing("inwards", inwards_step, inwards_defaults);
       ConvoyParams params = convoy_defaults();
       params.drive = drive;
-      // NOLINTNEXTLINE(cppcoreguidelines-pro-type-union-access): one robot at a time
-      auto& state = *new (&memory.convoy) ConvoyState(initial_convoy_state(0, worker, false));
-      report("convoy", exercise<ConvoyMessage>(convoy_step, params, state));
+      report("convoy", exercise<ConvoyMessage, ConvoyParams, ConvoyState>(convoy_step, params, begin()));
     }
   }
 }

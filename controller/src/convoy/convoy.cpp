@@ -240,13 +240,13 @@ ConvoyParams with_room_for_relief(ConvoyParams params) noexcept {
 
 ConvoyState initial_convoy_state(RobotId id, bool worker, bool root) noexcept {
   ConvoyState state;
-  static_cast<HealingState&>(state) = initial_healing_state(id, worker, root);
+  begin_as(state, id, worker, root);
   return state;
 }
 
 PoweredConvoyState initial_powered_state(RobotId id, bool worker, bool root) noexcept {
   PoweredConvoyState state;
-  static_cast<ConvoyState&>(state) = initial_convoy_state(id, worker, root);
+  begin_as(state, id, worker, root);
   return state;
 }
 

@@ -198,6 +198,11 @@ Vec2 make_way(const ConvoyRobot& robot, float width_m) noexcept {
   return u * robot.params.corridor_gain + clear_folds(robot, width_m);
 }
 
+// On that way, as far as others and the lines of sight of edges let it.
+Vec2 pushed_off(const ConvoyRobot& robot, Vec2 way, float way_m) noexcept {
+  return way + repulsion(robot) + make_way(robot, way_m);
+}
+
 // The course of a spare that is needed elsewhere. If others push it back so hard that it almost stops, the push is
 // turned sideways, to the side to which it is pushed already; among obstacles bypass() chooses the side.
 Vec2 past(const ConvoyRobot& robot, Vec2 way, float way_m) noexcept {
@@ -458,12 +463,11 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   if (holds_still(robot)) return {};
   if (Vec2 way; steps_aside(robot, way)) return way + repulsion(robot);
   if (folds(robot))
-    return folding_motion(robot) + repulsion(robot) + make_way(robot, wide * p.clearance_m) +
-           clear_sight(robot, robot.self.corners);
+    return pushed_off(robot, folding_motion(robot), wide * p.clearance_m) + clear_sight(robot, robot.self.corners);
   const Vec2 along = robot.self.lead_to != nobody ? lead(robot)
                      : has_arrived(robot)         ? compaction(robot)
                                                   : clamped(tow(robot), 1.0F);
-  return along + tension(robot) + shared_slack(robot) + repulsion(robot) + make_way(robot, p.corridor_width_m) +
+  return pushed_off(robot, along + tension(robot) + shared_slack(robot), p.corridor_width_m) +
          clear_sight(robot, robot.self.corners);
 }
 
@@ -487,13 +491,13 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   // The root is about to go round a corner, and waits for spares.
   const int root = robot.table().find(self.root.id);
   if (root >= 0 && robot.corner_of(root).pinned && robot.table().range(root) > p.avoidance_range_m)
-    return bypass(robot, robot.table().position(root)) + repulsion(robot) + make_way(robot, wide * p.clearance_m);
+    return pushed_off(robot, bypass(robot, robot.table().position(root)), wide * p.clearance_m);
   // On batteries spares travel all the time: one that a reconstruction has stopped between two robots gets out of
   // there.
   if (holds_still(robot)) return robot.power != nullptr ? make_way(robot, p.clearance_m) : Vec2{};
   // A charged robot makes room at the place. One that needs it drives through the crowd: the others step aside.
   if (Vec2 away; robot.power != nullptr && leaves_place(*robot.power, away))
-    return away + repulsion(robot) + make_way(robot, p.corridor_width_m);
+    return pushed_off(robot, away, p.corridor_width_m);
   if (robot.power != nullptr && is_at_place(*robot.power))
     return repulsion(robot) + make_way(robot, wide * p.clearance_m);
   const int k = followed_by(robot);
@@ -510,13 +514,12 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
     return past(robot, bypass(robot, norm(way) < p.avoidance_range_m ? left_of(unit(way)) : way), way_m);
   }
   if (self.called && d > p.avoidance_range_m) return past(robot, bypass(robot, reference), way_m);
-  if (d > reach_m) return bypass(robot, reference) + repulsion(robot) + make_way(robot, wide * p.clearance_m);
+  if (d > reach_m) return pushed_off(robot, bypass(robot, reference), wide * p.clearance_m);
   // It is there, but cannot hear the edge that calls, hidden or too far: it goes round the robot that passed on the
   // call. Not where many edges meet: spares wait on the far side, too, and it would only cross lines of sight.
   constexpr int few_children = 3;
   const bool roomy = self.corners.landmarks.size > 0 || (k >= 0 && robot.convoy_of(k).child_count <= few_children);
-  if (self.called && roomy && d > 0.0F)
-    return bypass(robot, way_round(robot, k)) + repulsion(robot) + make_way(robot, way_m);
+  if (self.called && roomy && d > 0.0F) return pushed_off(robot, bypass(robot, way_round(robot, k)), way_m);
   return repulsion(robot) + make_way(robot, p.corridor_width_m);
 }
 

@@ -13,11 +13,15 @@ constexpr float straying = 0.2F;        // of v
 
 }  // namespace
 
+void begin_as(HealingState& self, RobotId id, bool worker, bool root) noexcept {
+  begin_as(static_cast<TreeState&>(self), id, worker, root);
+  self.was_sent = worker;
+  if (worker) self.serves = id;
+}
+
 HealingState initial_healing_state(RobotId id, bool worker, bool root) noexcept {
   HealingState state;
-  static_cast<TreeState&>(state) = initial_tree_state(id, worker, root);
-  state.was_sent = worker;
-  if (worker) state.serves = id;
+  begin_as(state, id, worker, root);
   return state;
 }
 

@@ -67,10 +67,9 @@ void for_each_edge_of_both_trees(const TreeRobot& robot, FunctionRef<void(int)> 
   const TreeTable& table = robot.table();
   if (robot.parent_alive()) visit(robot.parent);
   if (robot.old_parent_alive() && robot.old_parent != robot.parent) visit(robot.old_parent);
-  for (const int k : robot.children)
-    if (table.message(k).role != Role::spare) visit(k);
-  for (const int k : robot.old_children)
-    if (table.message(k).role != Role::spare) visit(k);
+  for (const IndexList* below : {&robot.children, &robot.old_children})
+    for (const int k : *below)
+      if (table.message(k).role != Role::spare) visit(k);
 }
 
 // How far a point is from the nearest of my tree edges: the farther, the less it matters.
@@ -105,8 +104,8 @@ void hear_of_corners(const TreeRobot& robot, Corners& corners) noexcept {
     if (table.age(k) > 0 || up_of(m) != robot.self.id || (corner.hinge_x_cm == 0 && corner.hinge_y_cm == 0)) return;
     file(robot, corners, from_edge_frame({metres(corner.hinge_x_cm), metres(corner.hinge_y_cm)}, table.position(k)));
   };
-  for (const int k : robot.children) hear(k);
-  for (const int k : robot.old_children) hear(k);
+  for (const IndexList* below : {&robot.children, &robot.old_children})
+    for (const int k : *below) hear(k);
 }
 
 // Where to go when the tree falls silent: a robot of the tree goes to where it stood, a spare to where
@@ -172,10 +171,16 @@ bool is_towed(const TreeRobot& robot, const Corners& corners, float start_m) noe
   return banyan::any_of(robot.children, tows);
 }
 
-void forget_wrong(const TreeRobot& robot, Corners& corners) noexcept {
-  Landmarks& known = corners.landmarks;
+// Everything nearer would be sensed.
+float nearest_sensed_m(const TreeRobot& robot) noexcept {
   float nearest_m = body_m(robot) + near_m;
   for (const Vec2 o : robot.obstacles) nearest_m = std::min(nearest_m, norm(o));
+  return nearest_m;
+}
+
+void forget_wrong(const TreeRobot& robot, Corners& corners) noexcept {
+  Landmarks& known = corners.landmarks;
+  const float nearest_m = nearest_sensed_m(robot);
   const float far_m = forget * robot.params.communication_range_m;
   // A point nearer than everything that is sensed no longer exists, or never did.
   const auto is_wrong = [&](Vec2 p) { return norm(p) > far_m || norm(p) < nearest_m - spacing_m; };
@@ -197,8 +202,7 @@ bool is_heard_through(const TreeRobot& robot, Vec2 center) noexcept {
 
 // Out of reach of all edges, not where the sensor would see it, heard again, or gone.
 void forget_bodies(const TreeRobot& robot, KnownBodies& bodies) noexcept {
-  float nearest_m = body_m(robot) + near_m;
-  for (const Vec2 o : robot.obstacles) nearest_m = std::min(nearest_m, norm(o));
+  const float nearest_m = nearest_sensed_m(robot);
   const auto is_wrong = [&](std::size_t k) {
     const float d = norm(bodies.centers[k]);
     const int place = robot.table().find(bodies.ids[k]);
@@ -268,14 +272,15 @@ bool find_hinge(const TreeRobot& robot, const Corners& corners, Vec2& hinge) noe
   const int up = robot.up();
   if (up < 0) return false;
   const Vec2 parent = robot.table().position(up);
+  const Vec2 direction = unit(parent);
   float best_m = hinge_width_m;
   for_each_obstacle(robot, corners, [&](Vec2 o, float r) {
     const float along = dot(o, parent);
-    const float across = cross(unit(parent), o);
+    const float across = cross(direction, o);
     const float across_m = std::max(std::abs(across) - r, 0.0F);
     if (along <= 0.0F || along >= squared_norm(parent) || across_m >= best_m) return;
     best_m = across_m;
-    hinge = o - left_of(unit(parent)) * (across < 0.0F ? -r : r);  // of a body the point nearest to the edge
+    hinge = o - left_of(direction) * (across < 0.0F ? -r : r);  // of a body the point nearest to the edge
   });
   return best_m < hinge_width_m;
 }

@@ -7,12 +7,16 @@
 
 namespace banyan {
 
+void begin_as(TreeState& self, RobotId id, bool worker, bool root) noexcept {
+  self.id = id;
+  self.is_worker = worker;
+  self.role = root ? Role::root : worker ? Role::worker : Role::spare;
+  if (root) self.root = {1, id};
+}
+
 TreeState initial_tree_state(RobotId id, bool worker, bool root) noexcept {
   TreeState state;
-  state.id = id;
-  state.is_worker = worker;
-  state.role = root ? Role::root : worker ? Role::worker : Role::spare;
-  if (root) state.root = {1, id};
+  begin_as(state, id, worker, root);
   return state;
 }
 

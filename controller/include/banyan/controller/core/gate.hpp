@@ -36,16 +36,15 @@ class Gate {
     const auto is_possible = [limit_m](const Heard& h) {
       return is_within(h.position, limit_m) && h.age_s >= 0.0F && h.age_s <= longest_step_s;
     };
-    bool all = true;
-    for (const Heard& h : heard) {
-      all &= is_possible(h);
-      aged_ |= h.age_s > 0.0F;
-    }
-    if (all) return heard;
     std::size_t kept = 0;
     for (const Heard& h : heard) {
-      if (is_possible(h)) heard[kept++] = h;
-      else ++rejected_;
+      if (!is_possible(h)) {
+        ++rejected_;
+        continue;
+      }
+      aged_ |= h.age_s > 0.0F;
+      if (&h != &heard[kept]) heard[kept] = h;  // mostly all pass, and stay where they are
+      ++kept;
     }
     return heard.first(kept);
   }

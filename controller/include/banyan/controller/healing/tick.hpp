@@ -8,6 +8,7 @@
 namespace banyan {
 
 [[nodiscard]] HealingState initial_healing_state(RobotId id, bool worker, bool root) noexcept;
+void begin_as(HealingState& self, RobotId id, bool worker, bool root) noexcept;  // in place
 
 // A robot that has resigned from its target, or serves another's, stays with that, however long it is sent.
 void follow_orders(HealingRobot& robot, const Orders& orders) noexcept;

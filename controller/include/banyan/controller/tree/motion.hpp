@@ -14,10 +14,9 @@ inline constexpr float same_spot_m = 1e-6F;
 template <class Visit> void for_each_tree_neighbor(const TreeRobot& robot, Visit visit) noexcept {
   if (robot.parent >= 0) visit(robot.parent);
   if (robot.old_parent >= 0 && robot.old_parent != robot.parent) visit(robot.old_parent);
-  for (const int k : robot.children)
-    if (k != robot.parent && k != robot.old_parent) visit(k);
-  for (const int k : robot.old_children)
-    if (k != robot.parent && k != robot.old_parent) visit(k);
+  for (const IndexList* below : {&robot.children, &robot.old_children})
+    for (const int k : *below)
+      if (k != robot.parent && k != robot.old_parent) visit(k);
 }
 
 // The paper's u_i for a robot of the tree: springs along its edges, the target's pull within f.

@@ -12,6 +12,8 @@ namespace banyan {
 // A robot before its first step. Exactly one robot of a swarm starts as root; a robot that is sent to a target
 // is told so at every step (Orders).
 [[nodiscard]] TreeState initial_tree_state(RobotId id, bool worker, bool root) noexcept;
+// What makes a new state that robot's, in place.
+void begin_as(TreeState& self, RobotId id, bool worker, bool root) noexcept;
 
 // What is remembered is carried into the robot's present frame, the neighbour table is brought up to date, and
 // the orders are followed.
