@@ -16,7 +16,8 @@ constexpr float taut_width = 0.08F;   // of C: and so much longer it does with a
 constexpr float gives_below = 0.02F;  // of C: the same for the edge to one's own parent,
 constexpr float gives_width = 0.5F;   // of the longest folded edge: which gives way to the others
 constexpr float off_middle = 0.02F;   // of C: a robot that joins may be so much farther away than a folded edge is long
-constexpr float sideways = 0.5F;      // the pace of a robot that does not hear its grandparent
+constexpr float sideways = 0.5F;      // the pace of a robot that does not hear its grandparent,
+constexpr float slower = 3.0F;        // times slower if that is the next but one: it is hidden more often
 constexpr int unheard_ticks = 3;
 constexpr int search_ticks = 40;        // to one side, then to the other
 constexpr float pushes_through = 6.0F;  // between a line and the edges beside it: through the line
@@ -33,7 +34,8 @@ Vec2 look_past(const ConvoyRobot& robot, Vec2 up) noexcept {
     over = table.find(m.parent);
     if (over >= 0 && table.age(over) <= unheard_ticks) continue;
     const bool left = (self.phase_ticks / search_ticks + self.id) % 2 == 0;
-    return left_of(up) * (left ? sideways : -sideways);
+    const float pace = hop > 1 ? sideways / slower : sideways;
+    return left_of(up) * (left ? pace : -pace);
   }
   return {};
 }
