@@ -2,6 +2,7 @@
 #include "banyan/measure/lasting.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace banyan::measure {
 
@@ -89,14 +90,36 @@ void Lasting::observe(const world::World& world) {
   if (living > 0) mean_ = level_sum_ / static_cast<double>(living);
 }
 
+double Lasting::charging_share(const world::World& world, double draws_per_s) const noexcept {
+  constexpr double span = 0.5;  // of a battery: what a robot has used when it is relieved, about
+  constexpr double pace = 0.5;  // of the wheels' limit: robots make way for others, and turn
+  const world::Scenario& s = world.scenario();
+  double sum_m = 0.0;
+  std::size_t posts = 0;
+  for (std::size_t i = 0; i < courses_.size(); ++i) {
+    if (world.alive()[i] == 0 || world.reports()[i].role == Role::spare) continue;
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (const world::Vec2 place : s.battery.places)
+      nearest_m = std::min(nearest_m, distance(world.positions()[i], place));
+    sum_m += nearest_m;
+    ++posts;
+  }
+  const double gains_per_s = s.battery.charge_w / s.battery.capacity_j - draws_per_s;
+  if (posts == 0 || gains_per_s <= 0.0) return 1.0;
+  const double charging_s = span / gains_per_s;
+  const double away_s = 2.0 * sum_m / static_cast<double>(posts) / (pace * s.robot.wheel_limit_m_s);
+  return charging_s / (charging_s + away_s);
+}
+
 double Lasting::lasts_s(const world::World& world, double committed) const noexcept {
   if (courses_.empty() || drawn_s_ == 0.0) return -1.0;
   const world::Battery& battery = world.scenario().battery;
   const double each_per_s = drawn_ / drawn_s_;
   const auto living = static_cast<double>(std::count(world.alive().begin(), world.alive().end(), std::uint8_t{1}));
   const auto places = static_cast<double>(battery.places.size());
+  const double free = std::max(0.0, living - committed + places);
   const double charged =
-      std::min(places * static_cast<double>(battery.slots), std::max(0.0, living - committed + places));
+      std::min(places * static_cast<double>(battery.slots), free * charging_share(world, each_per_s));
   const double sinks_per_s = living * each_per_s - charged * battery.charge_w / battery.capacity_j;
   return sinks_per_s > 0.0 ? level_sum_ / sinks_per_s : -1.0;
 }

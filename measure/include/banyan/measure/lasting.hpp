@@ -29,9 +29,9 @@ class Lasting {
   // none.
   [[nodiscard]] std::uint64_t trips() const noexcept { return arrived_ + lost_; }
   [[nodiscard]] std::uint64_t trips_arrived() const noexcept { return arrived_; }
-  // At the end: for how long the charge lasts, if the living go on drawing what they drew on average and as many as can
-  // are charged, in all slots and all of them but `committed` robots of the tree, of which those at charging places
-  // count, too; -1: for ever, or no batteries.
+  // At the end: for how long the charge lasts, if the living go on drawing what they drew on average; -1: for ever, or
+  // no batteries. Charged are as many as there are slots for, and no more than those that are not among the `committed`
+  // robots of the tree (of which those at charging places count, too), each for `charging_share` of its time.
   [[nodiscard]] double lasts_s(const world::World& world, double committed) const noexcept;
 
  private:
@@ -45,6 +45,9 @@ class Lasting {
   };
   void mark_broken(const world::World& world);
   void follow_swap(const world::World& world, std::size_t i);
+  // Of the time of a robot that relieves others in turn, what it spends in a slot: the rest it drives to the robots of
+  // the tree and back, on average as far as they are from the nearest place.
+  [[nodiscard]] double charging_share(const world::World& world, double draws_per_s) const noexcept;
   void follow_trip(const world::World& world, std::size_t i);
 
   double range_m_;
