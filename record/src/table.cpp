@@ -88,7 +88,7 @@ constexpr Column<Row> result_table[] = {
     {"unheld_time_ratio_by_death",
      "of the rest, the part from a worker's death at its target until it is held again; empty if never complete", 6,
      [](const Row& r) { return if_known(r.run.unheld_time_ratio_by_death); }, 10,
-     "share of targets whose worker has died, once complete"},
+     "share of targets not held by workers' deaths"},
     {"held_ratio", "share of the active targets that are held at the end", 6,
      [](const Row& r) -> Cell { return r.run.held_ratio; }, 3},
     {"robots_bound", "no fewer committed robots, a worker for each target among them, can connect the targets", 0,
