@@ -93,12 +93,21 @@ std::string paths_text(const measure::Run& run) {
   return text;
 }
 
+// Only where something was lost: most deaths cost no target anything.
+std::string lost_time_text(const measure::Run& run) {
+  if (run.unheld_time_ratio_by_death <= 0.0) return {};
+  const double unheld = 1.0 - run.held_time_ratio;
+  return format("targets not held for %.2f %% of the time once complete, %.2f %% by their own workers' deaths; ",
+                100.0 * unheld, 100.0 * run.unheld_time_ratio_by_death);
+}
+
 std::string deaths_text(const measure::Run& run) {
   std::string text =
       format("%u of %s died, the last at %.1f s; ", run.deaths, plural(run.robots, "robot").c_str(), run.last_death_s);
   if (run.held_again_s >= 0.0)
     text += format("%s lost a worker, held again after %.1f s (median); ", plural(run.lost_holders, "target").c_str(),
                    run.held_again_s);
+  text += lost_time_text(run);
   if (run.recovered) return text + format("whole again %.1f s later", run.recovery_time_s);
   const double watched_s = std::min(run.time_s - run.last_death_s, measure::recovery_limit_s);
   text += format("not whole again in the %.1f s after it", watched_s);

@@ -164,6 +164,24 @@ TEST(Summary, SaysWhichRobotsRefusedReadings) {
   outputs.abandon();
 }
 
+TEST(Summary, TellsWhatWorkersOwnDeathsCostWhereTheyDo) {
+  const config::Configuration of = configuration();
+  const RunOutputs outputs(of, testing::TempDir() + "summary", true);
+  record::RunRow row{};
+  row.run.complete = true;
+  row.run.deaths = 2;
+  row.run.held_time_ratio = 0.99;
+  row.run.unheld_time_ratio_by_death = 0.0;
+  EXPECT_FALSE(has(summary_text(row, of, outputs, {}), "own workers")) << "nothing lost by them";
+  row.run.unheld_time_ratio_by_death = 0.0075;
+  const std::string text = summary_text(row, of, outputs, {});
+  EXPECT_TRUE(
+      has(text, "targets not held for 1.00 % of the time once complete, 0.75 % by their own workers' deaths; "));
+  row.run.deaths = 0;
+  EXPECT_FALSE(has(summary_text(row, of, outputs, {}), "own workers")) << "nobody died";
+  outputs.abandon();
+}
+
 // ---- Processes ----
 
 class FleetProgram : public StartedProcesses {

@@ -215,8 +215,8 @@ struct Observer::Impl {
   Spectrum with_occlusion, by_distance;
   HopCount hop_count;
   std::uint64_t ticks_since_complete = 0;
-  std::uint32_t most_deploying = 0;  // robots in the tree, in a tick up to completion
-  double held_sum = 0.0;
+  std::uint32_t most_deploying = 0;                  // robots in the tree, in a tick up to completion
+  double held_sum = 0.0, unheld_by_death_sum = 0.0;  // of the shares of the active targets, since complete
   std::uint64_t committed_sum = 0, low_ticks = 0, low_ticks_by_distance = 0;
   std::uint64_t start_ticks = 0, select_ticks = 0;
   Serial last_epoch = 0;  // of a root
@@ -456,6 +456,7 @@ void Observer::Impl::measure_targets(const world::World& world) {
     const double counted_m = std::isfinite(distance_m) ? distance_m : first_m;
     tick.worst_target_distance_m = std::max(tick.worst_target_distance_m, counted_m);
   }
+  takeovers.observe(holders, targets, alive);
   // A run that heals on after its limit is no longer in time.
   if (run.complete || !tick.complete() || tick.time_s > run.time_limit_s + 1e-9) return;
   run.complete = true;
@@ -506,6 +507,8 @@ void Observer::Impl::add_up() {
   if (run.complete) {
     ++ticks_since_complete;
     held_sum += run.held_ratio;
+    if (tick.active_targets > 0)
+      unheld_by_death_sum += static_cast<double>(takeovers.waiting()) / static_cast<double>(tick.active_targets);
   }
   two_roots_streak = tick.roots > 1 ? two_roots_streak + 1 : 0;
   run.two_roots_ticks += tick.roots > 1 ? 1 : 0;
@@ -514,7 +517,6 @@ void Observer::Impl::add_up() {
 
 void Observer::Impl::watch_recovery(const world::World& world) {
   recovery.observe(world.deaths(), tick.components == 1 && tick.roots == 1 && tick.all_held());
-  takeovers.observe(holders, world.targets(), world.alive());
   pending_kills = world.pending_kills();
   run.deaths = static_cast<std::uint32_t>(world.deaths());
   run.survivors = tick.alive;
@@ -674,8 +676,11 @@ Run Observer::result(const world::World& world) const {
   run.emptied = static_cast<std::uint32_t>(world.emptied());
   run.lasts_s = impl_->lasting.lasts_s(world, run.mean_committed);
   run.driven_m = impl_->effort.driven_m() / static_cast<double>(world.size());
-  if (impl_->ticks_since_complete > 0)
-    run.held_time_ratio = impl_->held_sum / static_cast<double>(impl_->ticks_since_complete);
+  if (impl_->ticks_since_complete > 0) {
+    const double since_complete = static_cast<double>(impl_->ticks_since_complete);
+    run.held_time_ratio = impl_->held_sum / since_complete;
+    run.unheld_time_ratio_by_death = impl_->unheld_by_death_sum / since_complete;
+  }
   if (run.complete && run.time_bound_s > 0.0) run.time_ratio = run.completion_time_s / run.time_bound_s;
   run.committed_ratio = static_cast<double>(run.committed) / static_cast<double>(run.robots_bound);
   run.deployment_ratio = static_cast<double>(impl_->most_deploying) / static_cast<double>(run.robots_bound);

@@ -8,6 +8,7 @@ namespace banyan::measure {
 void Takeovers::observe(std::span<const RobotId> holders, std::span<const world::Target> targets,
                         std::span<const std::uint8_t> alive) {
   courses_.resize(holders.size());
+  waiting_ = 0;
   for (std::size_t t = 0; t < holders.size(); ++t) {
     Course& course = courses_[t];
     if (!targets[t].active) {
@@ -24,6 +25,7 @@ void Takeovers::observe(std::span<const RobotId> holders, std::span<const world:
       course = {.holder = holders[t]};
     } else if (course.waits_ticks > 0) {
       ++course.waits_ticks;
+      ++waiting_;
     } else {
       course.holder = nobody;
     }

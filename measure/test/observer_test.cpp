@@ -544,6 +544,66 @@ TEST(Observer, AWorkerThatNobodyReplacesIsNeverRecoveredFrom) {
   EXPECT_GE(observer.last().worst_target_distance_m, distance(body, world.targets()[1].position) - 1e-12);
 }
 
+// What each target has seen, tick by tick: who holds it, and who is dead.
+struct Seen {
+  std::vector<RobotId> holders;
+  std::vector<bool> dead;
+};
+
+Seen seen(const World& world) {
+  Seen now;
+  for (std::size_t t = 0; t < world.targets().size(); ++t) {
+    const auto holder = world.holder(t);
+    now.holders.push_back(holder ? static_cast<RobotId>(*holder) : nobody);
+  }
+  for (const auto alive : world.alive()) now.dead.push_back(alive == 0);
+  return now;
+}
+
+// From each death at a target forward to the tick in which the target is held again, over all that was seen.
+std::size_t unheld_by_death(const std::vector<Seen>& ticks) {
+  std::size_t unheld = 0;
+  for (std::size_t k = 1; k < ticks.size(); ++k)
+    for (std::size_t t = 0; t < ticks[k].holders.size(); ++t) {
+      const RobotId before = ticks[k - 1].holders[t];
+      if (before == nobody || !ticks[k].dead[before]) continue;
+      for (std::size_t later = k; later < ticks.size() && ticks[later].holders[t] == nobody; ++later) ++unheld;
+    }
+  return unheld;
+}
+
+// Of three targets, one loses its worker, one moves away from a living one, and both are held again.
+TEST(Observer, WhatAWorkersOwnDeathCostsIsCountedApart) {
+  Scenario s = ring(20, 3, 2.0);
+  s.mission.stop_when_complete = false;
+  s.mission.time_limit_s = 90.0;
+  const World probe(s);
+  s.events = {death(probe.targets()[0].worker, 40.0)};
+  s.events.push_back({.time_s = 55.0, .action = world::MoveTarget{1, {0.0, 2.5}}});
+  World world(s);
+  Observer observer(world);
+  std::vector<Seen> since_complete;
+  std::size_t held = 0;
+  while (!observer.finished()) {
+    after(world, observer, 1);
+    if (!observer.run().complete) continue;
+    since_complete.push_back(seen(world));
+    for (const RobotId holder : since_complete.back().holders) held += holder != nobody ? 1 : 0;
+  }
+  const measure::Run run = observer.result(world);
+  ASSERT_TRUE(run.complete);
+  ASSERT_LT(run.completion_time_s, 40.0);
+  const auto target_ticks = static_cast<double>(3 * since_complete.size());
+  const std::size_t by_death = unheld_by_death(since_complete);
+  EXPECT_NEAR(run.unheld_time_ratio_by_death, static_cast<double>(by_death) / target_ticks, 1e-12);
+  EXPECT_NEAR(run.held_time_ratio, static_cast<double>(held) / target_ticks, 1e-12);
+  EXPECT_GT(by_death, 10U) << "a second at the least until anybody notices";
+  EXPECT_LT(static_cast<double>(held + by_death), target_ticks - 10.0) << "the target that moved is no death's";
+  EXPECT_NEAR(static_cast<double>(by_death) * 0.1, run.held_again_s, 1e-9) << "the only death";
+  World started(s);
+  EXPECT_EQ(Observer(started).result(started).unheld_time_ratio_by_death, -1.0) << "not complete";
+}
+
 TEST(Observer, WhatWasLostBeforeTheLimitIsWaitedForButNotWhatMayNeverCome) {
   Scenario s = chain(5, 1.0);
   s.mission.time_limit_s = 30.0;

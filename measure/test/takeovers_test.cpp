@@ -48,6 +48,25 @@ TEST(Takeovers, AWorkerThatDoesNotHoldItsTargetIsNoLoss) {
   EXPECT_EQ(watch.takeovers.median_s(), -1.0);
 }
 
+TEST(Takeovers, ATargetWithoutItsLivingWorkerDoesNotWait) {
+  Watch watch(3);
+  watch.see({0, 1, 2});
+  EXPECT_EQ(watch.takeovers.waiting(), 0U);
+  watch.alive[0] = 0;
+  watch.see({nobody, nobody, 2});  // 1 lives, away from its target
+  EXPECT_EQ(watch.takeovers.waiting(), 1U) << "in the tick of the death";
+  watch.alive[1] = watch.alive[2] = 0;
+  watch.see({nobody, nobody, nobody}, 9);
+  EXPECT_EQ(watch.takeovers.waiting(), 2U) << "1 held nothing when it died";
+  watch.see({4, nobody, nobody});
+  EXPECT_EQ(watch.takeovers.waiting(), 1U);
+  watch.see({nobody, nobody, nobody});
+  EXPECT_EQ(watch.takeovers.waiting(), 1U) << "held again once; 4 lives";
+  watch.targets[2].active = false;
+  watch.see({nobody, nobody, nobody});
+  EXPECT_EQ(watch.takeovers.waiting(), 0U) << "nobody waits for a target that is given up";
+}
+
 TEST(Takeovers, WhoStillWaitsCountsAsLongest) {
   Watch watch(4);
   watch.see({0, 1, 2, 3});

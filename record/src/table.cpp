@@ -39,7 +39,8 @@ std::string hexadecimal(std::uint64_t value) {
 // 7: deployment_ratio.
 // 8: lost_holders, held_again_s.
 // 9: start_parts.
-constexpr int format_version = 9;
+// 10: unheld_time_ratio_by_death.
+constexpr int format_version = 10;
 
 constexpr Column<Row> identifying_table[] = {
     {"name", "the scenario's name", 0, [](const Row& r) -> Cell { return r.id.name; }},
@@ -84,6 +85,10 @@ constexpr Column<Row> result_table[] = {
      [](const Row& r) { return if_known(r.run.time_ratio); }, 1, "completion time / lower bound"},
     {"held_time_ratio", "from completion on, mean share of the targets that are held; empty if never complete", 6,
      [](const Row& r) { return if_known(r.run.held_time_ratio); }, 1, "share of targets held once complete"},
+    {"unheld_time_ratio_by_death",
+     "of the rest, the part from a worker's death at its target until it is held again; empty if never complete", 6,
+     [](const Row& r) { return if_known(r.run.unheld_time_ratio_by_death); }, 10,
+     "share of targets not held by workers' deaths"},
     {"held_ratio", "share of the active targets that are held at the end", 6,
      [](const Row& r) -> Cell { return r.run.held_ratio; }, 3},
     {"robots_bound", "no fewer committed robots, a worker for each target among them, can connect the targets", 0,

@@ -20,6 +20,7 @@ constexpr Missable missable[] = {{"normalized_time", "complete", ""},
                                  {"completion_time_s", "complete", ""},
                                  {"time_ratio", "complete", ""},
                                  {"held_time_ratio", "complete", ""},
+                                 {"unheld_time_ratio_by_death", "complete", ""},
                                  {"recovery_time_s", "recovered", "last_death_s"}};
 
 const Missable* missable_of(std::string_view metric) noexcept {
@@ -42,7 +43,9 @@ Values limits(const Results& results, std::string_view metric) {
 
 }  // namespace
 
-bool is_time(std::string_view metric) noexcept { return metric != "held_time_ratio" && missable_of(metric) != nullptr; }
+bool is_time(std::string_view metric) noexcept {
+  return metric != "held_time_ratio" && metric != "unheld_time_ratio_by_death" && missable_of(metric) != nullptr;
+}
 
 MetricColumn metric_column(const Results& results, const std::string& metric) {
   MetricColumn column{metric, is_boolean(metric), false, results.values(metric), {}, {}};

@@ -51,8 +51,9 @@ struct Run {
   double normalized_time = 1.0;   // completion time / limit, 1 when not complete
   double time_bound_s = 0.0;      // lower bound of the completion time
   double held_time_ratio = -1.0;  // from completion on, mean share of the targets that are held; -1: not complete
-  double held_ratio = 0.0;        // at the end, share of the active targets that are held; 1 without any
-  double time_ratio = -1.0;       // completion time / bound; -1: not complete, or the bound is 0
+  double unheld_time_ratio_by_death = -1.0;  // of the rest, from a worker's death at its target until it is held again
+  double held_ratio = 0.0;                   // at the end, share of the active targets that are held; 1 without any
+  double time_ratio = -1.0;                  // completion time / bound; -1: not complete, or the bound is 0
   std::uint32_t robots = 0;
   std::uint32_t robots_bound = 0;  // no fewer committed robots complete the mission (relays.hpp)
   // Of the oracle; 0: not asked, since there are more than a thousand targets.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How soon targets are held again whose workers have died.
+// How soon targets are held again whose workers have died, and how many wait for that.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +22,8 @@ class Takeovers {
   void observe(std::span<const RobotId> holders, std::span<const world::Target> targets,
                std::span<const std::uint8_t> alive);
 
+  // Targets that nobody holds at the last tick, since the worker that held them died.
+  [[nodiscard]] std::uint32_t waiting() const noexcept { return waiting_; }
   // How often a worker died at its target while the target was active.
   [[nodiscard]] std::uint32_t lost() const noexcept { return lost_; }
   // From such a death until the target was held again, median; a target that still waits counts as longer than all that
@@ -38,6 +40,7 @@ class Takeovers {
   std::vector<Course> courses_;            // by target
   std::vector<std::uint32_t> held_again_;  // ticks without a holder, in the order in which it ended
   std::uint32_t lost_ = 0;
+  std::uint32_t waiting_ = 0;
 };
 
 }  // namespace banyan::measure
