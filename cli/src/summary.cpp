@@ -123,7 +123,7 @@ std::string power_text(const measure::Run& run) {
       plural(run.trips, "trip").c_str());
   if (run.emptied > 0) text += "; " + plural(run.emptied, "robot") + " ran down";
   if (run.lasts_s >= 0.0)
-    text += format("; too few are free to be charged: the swarm lasts for another %.0f s at most", run.lasts_s);
+    text += format("; fewer are charged than it takes: the swarm lasts for another %.0f s at most", run.lasts_s);
   return text;
 }
 

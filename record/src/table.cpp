@@ -211,7 +211,7 @@ constexpr Column<Row> result_table[] = {
     {"trips_arrived", "of these, those that ended in a slot", 0,
      [](const Row& r) { return natural(r.run.trips_arrived); }, 5},
     {"emptied", "robots that died for want of charge", 0, [](const Row& r) { return natural(r.run.emptied); }, 5},
-    {"lasts_s", "the charge is used up so long after the end; empty if it is not, or without batteries", 4,
+    {"lasts_s", "the charge is used up so long after the end at most; empty if it is not, or without batteries", 4,
      [](const Row& r) { return if_known(r.run.lasts_s); }, 5},
     {"deaths", "robots that died", 0, [](const Row& r) { return natural(r.run.deaths); }},
     {"survivors", "robots alive at the end", 0, [](const Row& r) { return natural(r.run.survivors); }},

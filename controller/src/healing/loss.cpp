@@ -53,11 +53,12 @@ void note_silence(HealingRobot& robot) noexcept {
 
 // With line of sight, a robot that falls silent in the clear may have been hidden by a dead body, or by an obstacle
 // that no sensor reaches. That is less likely in a thin start, where bodies are few, once a burst is known, and where
-// long silences are usual.
+// long silences are usual. With more targets than a robot remembers there are hundreds of bodies, and silences are long
+// for that.
 bool may_be_hidden(const HealingRobot& robot) noexcept {
   const HealingState& self = robot.self;
   return robot.params.line_of_sight && self.neighbors_at_start == 0 && self.burst_ticks == 0 &&
-         self.usual_silence <= first_silence_ticks + beyond_chance * by_chance_ticks(robot);
+         (self.forgets || self.usual_silence <= first_silence_ticks + beyond_chance * by_chance_ticks(robot));
 }
 
 // A neighbour comes back after a silence that lost packets alone do not explain: they get lost many in a row. Every

@@ -95,11 +95,13 @@ RC_GTEST_PROP(Bursts, WhoHearsNothingGoesNoFartherFromWhereItHeardTheOther, ()) 
 }
 
 // The burst that a robot notes when a neighbour comes back after so many ticks.
-int noted_after(int ticks, Vec2 at, bool line_of_sight, int neighbors_at_start = 0, int usual_ticks = 0) {
+int noted_after(int ticks, Vec2 at, bool line_of_sight, int neighbors_at_start = 0, int usual_ticks = 0,
+                bool forgets = false) {
   ConvoyBench bench = grown<Convoy>();
   bench.params.line_of_sight = line_of_sight;
   bench.state.neighbors_at_start = static_cast<std::uint8_t>(neighbors_at_start);
   bench.state.usual_silence = static_cast<std::uint8_t>(usual_ticks);
+  bench.state.forgets = forgets;
   bench.put(20, at);
   bench.steps(5);
   const auto said = bench.say(20);
@@ -124,6 +126,8 @@ TEST(Bursts, WithLineOfSightTheFirstIsNotedInAThinStartOrAfterLongSilences) {
   EXPECT_EQ(noted_after(8, {1.0F, 0.0F}, true, 2), 0) << "less than 2 I";
   EXPECT_EQ(noted_after(30, {1.0F, 0.0F}, true, 0, 40), 0);
   EXPECT_NEAR(noted_after(30, {1.0F, 0.0F}, true, 0, 80), 30, 2) << "long silences are usual";
+  EXPECT_EQ(noted_after(30, {1.0F, 0.0F}, true, 0, 80, true), 0) << "but with so many targets bodies make them";
+  EXPECT_NEAR(noted_after(30, {1.0F, 0.0F}, true, 2, 0, true), 30, 2);
 }
 
 TEST(Bursts, WithLineOfSightOneThatOthersKnowOfMakesARobotWatch) {

@@ -115,7 +115,7 @@ struct Run {
   std::uint64_t swaps = 0, broken_swaps = 0;   // robots of the tree relieved, and those with a broken edge meanwhile
   std::uint64_t trips = 0, trips_arrived = 0;  // of spares to charging places
   std::uint32_t emptied = 0;                   // robots that died for want of charge
-  double lasts_s = -1.0;  // the charge is used up so long after the end; -1: it is not, or no batteries
+  double lasts_s = -1.0;  // the charge is used up so long after the end at most; -1: it is not, or no batteries
   std::uint32_t deaths = 0;
   std::uint32_t survivors = 0;     // alive at the end
   double last_death_s = -1.0;      // -1: none died
