@@ -239,15 +239,11 @@ ConvoyParams with_room_for_relief(ConvoyParams params) noexcept {
 }
 
 ConvoyState initial_convoy_state(RobotId id, bool worker, bool root) noexcept {
-  ConvoyState state;
-  begin_as(state, id, worker, root);
-  return state;
+  return begun<ConvoyState>(id, worker, root);
 }
 
 PoweredConvoyState initial_powered_state(RobotId id, bool worker, bool root) noexcept {
-  PoweredConvoyState state;
-  begin_as(state, id, worker, root);
-  return state;
+  return begun<PoweredConvoyState>(id, worker, root);
 }
 
 void begin_tick(ConvoyRobot& robot, const Inputs<Heard>& inputs) noexcept {

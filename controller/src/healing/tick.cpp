@@ -20,9 +20,7 @@ void begin_as(HealingState& self, RobotId id, bool worker, bool root) noexcept {
 }
 
 HealingState initial_healing_state(RobotId id, bool worker, bool root) noexcept {
-  HealingState state;
-  begin_as(state, id, worker, root);
-  return state;
+  return begun<HealingState>(id, worker, root);
 }
 
 void follow_orders(HealingRobot& robot, const Orders& orders) noexcept {

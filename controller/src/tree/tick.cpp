@@ -14,11 +14,7 @@ void begin_as(TreeState& self, RobotId id, bool worker, bool root) noexcept {
   if (root) self.root = {1, id};
 }
 
-TreeState initial_tree_state(RobotId id, bool worker, bool root) noexcept {
-  TreeState state;
-  begin_as(state, id, worker, root);
-  return state;
-}
+TreeState initial_tree_state(RobotId id, bool worker, bool root) noexcept { return begun<TreeState>(id, worker, root); }
 
 void follow_orders(TreeRobot& robot, const Orders& orders) noexcept {
   TreeState& self = robot.self;

@@ -14,6 +14,11 @@ namespace banyan {
 [[nodiscard]] TreeState initial_tree_state(RobotId id, bool worker, bool root) noexcept;
 // What makes a new state that robot's, in place.
 void begin_as(TreeState& self, RobotId id, bool worker, bool root) noexcept;
+template <class State> State begun(RobotId id, bool worker, bool root) noexcept {
+  State state;
+  begin_as(state, id, worker, root);
+  return state;
+}
 
 // What is remembered is carried into the robot's present frame, the neighbour table is brought up to date, and
 // the orders are followed.
