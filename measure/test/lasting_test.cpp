@@ -98,6 +98,7 @@ TEST(Lasting, FartherPlacesAndFewerSlotsNeverMakeItLast) {
     for (const double far_m : {1.0, 5.0, 20.0, 50.0, 200.0}) {
       const double s = longest_if_ever(lasts_with_place_at(far_m, slots));
       EXPECT_LE(s, last) << slots << " slots, " << far_m << " m";
+      EXPECT_TRUE(far_m <= 50.0 || s < last) << slots << " slots: fewer are charged than have one";
       EXPECT_LE(s, longest_if_ever(lasts_with_place_at(far_m, slots + 1))) << slots << " slots, " << far_m << " m";
       last = s;
     }

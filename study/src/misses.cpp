@@ -15,12 +15,13 @@ constexpr double no_limit = std::numeric_limits<double>::quiet_NaN();
 struct Missable {
   std::string_view metric, reached;
   std::string_view condition;  // a column that is empty where there was nothing to reach
+  bool is_time = true;         // or a share of it
 };
 constexpr Missable missable[] = {{"normalized_time", "complete", ""},
                                  {"completion_time_s", "complete", ""},
                                  {"time_ratio", "complete", ""},
-                                 {"held_time_ratio", "complete", ""},
-                                 {"unheld_time_ratio_by_death", "complete", ""},
+                                 {"held_time_ratio", "complete", "", false},
+                                 {"unheld_time_ratio_by_death", "complete", "", false},
                                  {"recovery_time_s", "recovered", "last_death_s"}};
 
 const Missable* missable_of(std::string_view metric) noexcept {
@@ -44,7 +45,8 @@ Values limits(const Results& results, std::string_view metric) {
 }  // namespace
 
 bool is_time(std::string_view metric) noexcept {
-  return metric != "held_time_ratio" && metric != "unheld_time_ratio_by_death" && missable_of(metric) != nullptr;
+  const Missable* const known = missable_of(metric);
+  return known != nullptr && known->is_time;
 }
 
 MetricColumn metric_column(const Results& results, const std::string& metric) {

@@ -151,9 +151,7 @@ bool may_reconstruct(const ConvoyRobot& robot) noexcept {
   if (!robot.is_root()) return false;
   if (is_leaving(robot) && !is_planned(robot.self)) return true;
   // Companions would have to change places. While branches change their parents, a root may have no worker for a tick.
-  constexpr float settled_for_s = 4.0F;
-  const bool settled = robot.self.settled_ticks > robot.params.ticks(settled_for_s);
-  if (has_companions(robot.params) && (has_arrived(robot) || settled)) return false;
+  if (has_companions(robot.params) && (has_arrived(robot) || has_settled(robot))) return false;
   constexpr float patience_s = 5.0F;
   constexpr float called_patience_s = 15.0F;
   const bool called = robot.self.call_hops != nobody_calls;

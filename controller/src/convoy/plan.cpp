@@ -11,7 +11,6 @@
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/redundancy/companions.hpp"
-#include "banyan/controller/redundancy/folding.hpp"
 
 namespace banyan {
 namespace {
@@ -215,14 +214,12 @@ int least_robots(const ConvoyRobot& robot, const Task& task) noexcept {
 // again.
 void retry(ConvoyRobot& robot) noexcept {
   constexpr float first_pause_s = 30.0F;
-  constexpr float settled_s = 5.0F;
   constexpr float unclaimed_s = 60.0F;
   ConvoyState& self = robot.self;
   const int spares = static_cast<int>(self.root_size) - static_cast<int>(self.subtree);
   const int tried_with = static_cast<int>(self.tried_with);
   const bool none_held = count_held(self) == 0;
-  const bool settled = self.phase == Phase::grow_tree && !self.forgets &&
-                       (none_held || self.settled_ticks > robot.params.ticks(settled_s));
+  const bool settled = self.phase == Phase::grow_tree && !self.forgets && (none_held || has_settled(robot));
   Task* next = nullptr;
   int fewest = spares + 1;
   for (Task& task : self.known_tasks()) {
@@ -247,7 +244,8 @@ void count_for_folding(ConvoyRobot& robot) noexcept {
   constexpr float plenty = 1.25F;  // times the robots of one path: from here on branches may fold,
   constexpr float scarce = 1.1F;   // and below this they may not
   ConvoyState& self = robot.self;
-  if (!has_companions(robot.params) || self.turn % look_again_ticks != 0 || self.root_size == 0) return;
+  if (!has_companions(robot.params) || !robot.params.line_of_sight) return;
+  if (self.turn % look_again_ticks != 0 || self.root_size == 0) return;
   const auto paths = static_cast<float>(best_tree(robot).robots * robot.params.link_redundancy);
   self.too_few_to_fold = static_cast<float>(self.root_size) < paths * (self.too_few_to_fold ? plenty : scarce);
 }
@@ -287,6 +285,12 @@ RobotId lead_of(const ConvoyRobot& robot) noexcept {
 }
 
 }  // namespace
+
+bool has_settled(const ConvoyRobot& robot) noexcept {
+  constexpr float settled_s = 5.0F;
+  static_assert(settled_s > unsettled_after_s, "until then settled_ticks grows, whoever is missing");
+  return robot.self.settled_ticks > robot.params.ticks(settled_s);
+}
 
 bool find_goal(const ConvoyRobot& robot, Vec2& goal) noexcept {
   const Task* host = find_active(robot, robot.self.lead_to);

@@ -72,11 +72,16 @@ std::vector<float> shortest_edges(const std::vector<Vec2>& points) {
   return lengths;
 }
 
-RC_GTEST_PROP(Plan, IsAShortestTreeThroughTheTargets, ()) {
-  std::vector<Vec2> targets(*rc::gen::inRange<std::size_t>(2, task_capacity + 1));
+std::vector<Vec2> arbitrary_targets(std::size_t least) {
+  std::vector<Vec2> targets(*rc::gen::inRange<std::size_t>(least, task_capacity + 1));
   for (Vec2& t : targets)
     t = {static_cast<float>(*rc::gen::inRange(-900, 901)) * 0.01F,
          static_cast<float>(*rc::gen::inRange(-900, 901)) * 0.01F};
+  return targets;
+}
+
+RC_GTEST_PROP(Plan, IsAShortestTreeThroughTheTargets, ()) {
+  const std::vector<Vec2> targets = arbitrary_targets(2);
   ConvoyBench bench = commander(targets, 1000);
   bench.state.settled_ticks = static_cast<std::uint16_t>(20 * 40 * 10);  // late: all levels are in the plan
   run(bench, ticks_until_plan(bench));
@@ -103,10 +108,7 @@ int robots_of(const std::vector<Vec2>& targets, float edge_m) {
 
 // Branches fold with a quarter more robots than two or three paths take, and no longer with less than a tenth more.
 RC_GTEST_PROP(Plan, CountsWhetherRobotsSufficeForFolding, ()) {
-  std::vector<Vec2> targets(*rc::gen::inRange<std::size_t>(1, task_capacity + 1));
-  for (Vec2& t : targets)
-    t = {static_cast<float>(*rc::gen::inRange(-900, 901)) * 0.01F,
-         static_cast<float>(*rc::gen::inRange(-900, 901)) * 0.01F};
+  const std::vector<Vec2> targets = arbitrary_targets(1);
   ConvoyBench bench = commander(targets, 10);
   bench.params.link_redundancy = *rc::gen::inRange(2, 4);
   const auto paths =
@@ -135,11 +137,18 @@ TEST(Plan, DoesNotCountTargetsThatAreGivenUpForFolding) {
   EXPECT_FALSE(bench.state.too_few_to_fold);
 }
 
-TEST(Plan, DoesNotCountForFoldingWithOnePath) {
-  ConvoyBench bench = commander({{6, 0}, {-6, 0}}, 10);
-  bench.state.root_size = 3;
-  run(bench, 16);
-  EXPECT_FALSE(bench.state.too_few_to_fold);
+TEST(Plan, CountsForFoldingOnlyWhereBranchesMayFold) {
+  const auto too_few = [](int paths, bool line_of_sight) {
+    ConvoyBench bench = commander({{6, 0}, {-6, 0}}, 10);
+    bench.params.link_redundancy = paths;
+    bench.params.line_of_sight = line_of_sight;
+    bench.state.root_size = 3;
+    run(bench, 16);
+    return bench.state.too_few_to_fold;
+  };
+  EXPECT_TRUE(too_few(2, true));
+  EXPECT_FALSE(too_few(1, true));
+  EXPECT_FALSE(too_few(2, false));
 }
 
 TEST(Plan, WaitsUntilAllHaveBeenThereForAWhileAndIsForgottenWhenOneLeaves) {

@@ -16,6 +16,10 @@ namespace banyan {
 // A plan is being carried out, as far as I know.
 [[nodiscard]] inline bool is_planned(const ConvoyState& self) noexcept { return self.plan_ticks > 0; }
 
+// The root: all workers have arrived some time ago. Those of branches that change their parents may be missed for a
+// moment.
+[[nodiscard]] bool has_settled(const ConvoyRobot& robot) noexcept;
+
 // I lead my branch: where to, own frame, m.
 [[nodiscard]] bool find_goal(const ConvoyRobot& robot, Vec2& goal) noexcept;
 
