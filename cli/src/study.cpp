@@ -110,20 +110,10 @@ void check_strangers(const Folder& folder) {
   }
 }
 
-// No other process may work here while files are removed: its new files would be removed with the rest. study.json
-// goes last: until then the folder is recognised as that of a study.
-void throw_away(const Folder& folder) {
-  namespace fs = std::filesystem;
-  std::vector<JournalLock> journals;
+void start_over(const Folder& folder) {
   try {
-    for (auto& journal : journals_in(folder.path)) journals.emplace_back(std::move(journal));
+    throw_away(folder);
   } catch (const record::FileBusy& busy) { throw CommandError(exit_usage, busy.what()); }
-  std::error_code ignored;
-  for (const auto& file : {folder.table(), folder.statistics(), folder.comparisons()}) fs::remove(file, ignored);
-  fs::remove_all(folder.figures(), ignored);
-  fs::remove_all(folder.runs(), ignored);
-  for (auto& journal : journals) journal.remove();
-  fs::remove(folder.json(), ignored);
 }
 
 // No existing results may get lost: a folder is used only if it belongs to this very study.
@@ -238,7 +228,7 @@ int finish_shard(const Plan& plan, const Shard& shard, const Outcomes& outcomes,
 int run_plan(const StudyOptions& options, const Prepared& prepared, const Shard& shard, Processes& processes) {
   const auto folder = folder_of(options, prepared.study);
   check_folder(folder, prepared, options);
-  if (options.force && !options.dry_run) throw_away(folder);
+  if (options.force && !options.dry_run) start_over(folder);
   auto gathered = options.force ? Gathered{} : gather(journals_in(folder.path), prepared.study.name);
   check_builds(gathered, options);
   const auto todo = runs_to_do(prepared.plan, shard, gathered.outcomes, options.retry);

@@ -74,6 +74,32 @@ std::vector<std::size_t> runs_to_do(const Plan& plan, const Shard& shard, const 
   return todo;
 }
 
+std::vector<std::string> changed_algorithms(const Plan& plan, const Outcomes& known) {
+  std::vector<std::string> changed;
+  for (const PlannedRun& run : plan.runs) {
+    if (run.id == run.configured() || known.contains(run.id)) continue;
+    const auto at = known.lower_bound(run.configured());
+    if (at == known.end() || !at->first.starts_with(run.configured())) continue;
+    const std::string& name = plan.combinations[run.combination].scenario.mission.algorithm;
+    if (std::find(changed.begin(), changed.end(), name) == changed.end()) changed.push_back(name);
+  }
+  return changed;
+}
+
+// No other process may work here while files are removed: its new files would be removed with the rest. study.json
+// goes last: until then the folder is recognised as that of a study.
+void throw_away(const Folder& folder) {
+  namespace fs = std::filesystem;
+  std::vector<JournalLock> journals;
+  for (auto& journal : journals_in(folder.path)) journals.emplace_back(std::move(journal));
+  std::error_code ignored;
+  for (const auto& file : {folder.table(), folder.statistics(), folder.comparisons()}) fs::remove(file, ignored);
+  fs::remove_all(folder.figures(), ignored);
+  fs::remove_all(folder.runs(), ignored);
+  for (auto& journal : journals) journal.remove();
+  fs::remove(folder.json(), ignored);
+}
+
 std::string this_build() { return build_text(std::string(version), std::string(git_id())); }
 
 std::optional<Finished> finished(const Folder& folder) {

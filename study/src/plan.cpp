@@ -21,6 +21,8 @@ using config::Problem;
 class Identity {
  public:
   explicit Identity(config::Configuration bare) {
+    const std::string_view fingerprint = world::algorithm_of(bare.scenario).fingerprint();
+    if (!fingerprint.empty()) tail_ = "-" + std::string(fingerprint);
     bare.scenario.name.clear();
     bare.scenario.description.clear();
     bare.scenario.seed = 0;
@@ -33,11 +35,11 @@ class Identity {
   }
   [[nodiscard]] std::string id(std::uint64_t seed) const {
     std::string text = text_;
-    return hexadecimal(digest_of(text.replace(seed_at_, 1, std::to_string(seed))));
+    return hexadecimal(digest_of(text.replace(seed_at_, 1, std::to_string(seed)))) + tail_;
   }
 
  private:
-  std::string text_;
+  std::string text_, tail_;
   std::size_t seed_at_ = 0;
 };
 
@@ -54,7 +56,7 @@ class Planner {
                      [](const Problem& a, const Problem& b) { return !a.warning && b.warning; });
     Digest digest;
     for (const auto& row : plan_.rows) {
-      digest.add(digest_of(plan_.runs[row.run].id));
+      digest.add(digest_of(plan_.runs[row.run].configured()));
       digest.add(row.part);
     }
     plan_.digest = digest.value();

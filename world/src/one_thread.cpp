@@ -8,6 +8,7 @@
 namespace banyan::world {
 
 struct Executor::Team {};
+void Executor::End::operator()(Team*) const {}  // there never is one
 
 Executor::Executor(int) : threads_(1) {}
 Executor::~Executor() = default;

@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/world/threads.hpp"
 
+#include <pthread.h>
+
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace banyan::world {
+namespace {
+
+// How many forks lie between the first process and this one. A forked process has the memory of its parent's teams,
+// but not their threads.
+unsigned forks = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): all that a handler can reach
+[[maybe_unused]] const int counted = ::pthread_atfork(nullptr, nullptr, [] { ++forks; });
+
+}  // namespace
 
 struct Executor::Team {
   std::mutex mutex;
@@ -21,6 +33,8 @@ struct Executor::Team {
   Call call = nullptr;
   void* context = nullptr;
   std::vector<std::thread> members;  // no std::jthread: emscripten has none yet
+  const unsigned of = forks;         // the process that has the threads
+  Team* other = nullptr;
 
   // Also where a thread could not be started: those that were must not wait for ever.
   ~Team() {
@@ -53,16 +67,29 @@ struct Executor::Team {
   }
 };
 
+// Threads of another process can be neither stopped nor joined, and destroying what they wait for would wait for them.
+// So their team stays where it is, one in a chain.
+void Executor::End::operator()(Team* team) const {
+  static std::atomic<Team*> left_behind = nullptr;
+  if (team->of == forks) delete team;
+  else team->other = left_behind.exchange(team);
+}
+
 Executor::Executor(int threads) : threads_(std::max(1, threads)) {
-  if (threads_ == 1) return;
-  team_ = std::make_unique<Team>();
+  if (threads_ > 1) start();
+}
+
+void Executor::start() {
+  std::unique_ptr<Team, End> team(new Team);
   for (int worker = 1; worker < threads_; ++worker)
-    team_->members.emplace_back([this, worker] { team_->work(worker, threads_); });
+    team->members.emplace_back([of = team.get(), worker, threads = threads_] { of->work(worker, threads); });
+  team_ = std::move(team);
 }
 
 Executor::~Executor() = default;
 
 void Executor::run(std::size_t n, Call call, void* context) {
+  if (team_->of != forks) start();
   {
     const std::lock_guard lock(team_->mutex);
     team_->n = n;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Any number of threads gives the same world to the last bit.
+// Any number of threads gives the same world to the last bit, in a forked process too.
 #include "banyan/world/threads.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <memory>
 #include <vector>
 
 #include "worlds.hpp"
@@ -104,6 +107,52 @@ TEST(Threads, MayChangeDuringARun) {
   }
   EXPECT_EQ(steady.hash(), changing.hash());
 }
+
+#ifndef __SANITIZE_THREAD__  // it forbids threads in a forked process
+
+// How a child ends that does this and no more: 0 if it returns true, and by a signal if it takes ten seconds.
+template <class F> int in_a_child(F&& does) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::alarm(10);
+    ::_exit(does() ? 0 : 1);
+  }
+  int status = -1;
+  EXPECT_EQ(::waitpid(child, &status, 0), child);
+  return status;
+}
+
+TEST(Threads, AForkedProcessHasItsOwn) {
+  World world(hostile("outwards", 30, 3));
+  World alone(world);
+  auto executor = std::make_unique<Executor>(3);
+  world.step(*executor);
+  alone.step();
+  const auto goes_on = [&] {
+    for (int t = 0; t < 20; ++t) {
+      world.step(*executor);
+      alone.step();
+    }
+    return world.hash() == alone.hash();
+  };
+  EXPECT_EQ(in_a_child(goes_on), 0);
+  EXPECT_EQ(in_a_child([&] { return goes_on() && in_a_child(goes_on) == 0; }), 0) << "a child's child";
+  EXPECT_TRUE(goes_on()) << "the parent's are as they were";
+}
+
+TEST(Threads, AForkedProcessCanEndWithoutThem) {
+  auto executor = std::make_unique<Executor>(3);
+  for (const bool used : {false, true}) {
+    if (used) executor->parallel_for(3, [](std::size_t, std::size_t, int) {});
+    EXPECT_EQ(in_a_child([&] {
+                executor.reset();
+                return true;
+              }),
+              0);
+  }
+}
+
+#endif
 
 }  // namespace
 }  // namespace banyan::world

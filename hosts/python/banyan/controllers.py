@@ -12,6 +12,7 @@ import numpy as np
 
 from . import _core
 from .arrays import LARGEST_MESSAGE, ActionError, Actions, Observations, Role, Writer, drive
+from .fingerprints import fingerprint
 
 _name = re.compile(r"[A-Za-z0-9_-]{1,100}")
 
@@ -276,9 +277,9 @@ def payload_of(floats: int, bytes_: int) -> int:
     return size
 
 
-def described(controller: Any, name: str | None = None) -> tuple[Any, ...]:
+def described(controller: Any, name: str | None = None, *, told_apart: bool = False) -> tuple[Any, ...]:
     """What the C++ side needs to know of a controller: a class, an object that is copied for each world, or a function
-    without arguments that makes one."""
+    without arguments that makes one. `told_apart`: with its fingerprint."""
     if isinstance(controller, type):
         make, like = controller, controller
     elif hasattr(controller, "step"):
@@ -314,4 +315,5 @@ def described(controller: Any, name: str | None = None) -> tuple[Any, ...]:
         return _Mind(policy, not bytes_, holonomic)
 
     summary = ((kind.__doc__ or "").strip().splitlines() or ["a controller in Python"])[0]
-    return (name, summary, int(neighbours), payload, not bytes_, base, begin)
+    mark = fingerprint(controller, like) if told_apart else ""
+    return (name, summary, int(neighbours), payload, not bytes_, base, begin, mark)

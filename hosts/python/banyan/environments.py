@@ -67,15 +67,14 @@ class BatchEnv:
         seen = env.reset(seed=1)
         seen, rewards, terminated, truncated, info = env.step(actions)
 
-    num_envs         E; world e has the seed seed + e
+    num_envs         E; after reset(seed=s) world e has the seed s + e, and every world that begins anew has the next one
     max_neighbours   K, heard by a robot at once; default: all, at most 32
     message_floats   M, or message_bytes: what a robot's message has
     base             an algorithm of Banyan's that runs beneath; actions are velocities instead of those it suggests
     reward           weights of metrics (see Reward), or a function of (metrics now, metrics before), dicts of arrays
                      (E,), that returns (E,) or (E, N)
     threads          worlds are shared among so many
-    auto_reset       a world whose mission has ended begins anew, with the next seed that no world has had; what is
-                     returned then is its first observation
+    auto_reset       a world whose mission has ended begins anew; what is returned then is its first observation
     copy             False: observations are written into the same memory at every step
     and the keywords of Scenario but for controllers
     """
@@ -126,29 +125,29 @@ class BatchEnv:
         if isinstance(self._reward, Reward):
             self._reward.check(self.metrics)
         self._auto_reset, self._copy, self._base = auto_reset, copy, base
-        self._first_seed = core.seed
+        self.seeds = np.zeros(num_envs, np.int64)
+        self._next_seed = core.seed
         self._ready = False
 
     def reset(self, seed: int | None = None) -> Observations:
-        """All worlds anew, with the seeds seed, seed + 1, ...; without one, those of the first time. In the first tick
-        robots sense, and hear nobody yet."""
+        """All worlds anew, with the seeds seed, seed + 1, ...; without a seed, with those that come next, so that no
+        episode is like another and the last reset(seed) brings all of them back. The first time, that is the
+        scenario's seed. In the first tick robots sense, and hear nobody yet."""
+        self._begin(np.ones(self.num_envs, bool), seed)
         if seed is not None:
-            if not 0 <= int(seed) <= 2**53 - self.num_envs:
-                raise ValueError(f"seed: is {seed}; allowed: 0 to 2^53 - num_envs")
-            self._first_seed = int(seed)
-        self.seeds = self._first_seed + np.arange(self.num_envs)
-        self._next_seed = self._first_seed + self.num_envs
-        self._core.reset(self.seeds.tolist(), [True] * self.num_envs)
+            self._next_seed = int(seed) + self.num_envs
         self._ready = True
         return self._observations()
 
     def reset_at(self, index: int, seed: int | None = None) -> Observations:
-        """One world anew, with that seed or the next that no world has had."""
+        """One world anew, with that seed or the one that comes next."""
+        if not self._ready:
+            raise RuntimeError("reset() comes first")
         if not 0 <= index < self.num_envs:
             raise IndexError(f"there is no world {index} of {self.num_envs}")
         which = np.zeros(self.num_envs, bool)
         which[index] = True
-        self._begin(which, None if seed is None else [seed])
+        self._begin(which, seed)
         return self._observations()
 
     def step(
@@ -176,7 +175,7 @@ class BatchEnv:
         if self._auto_reset:
             info["ended"] = terminated | truncated
             if info["ended"].any():
-                self._begin(info["ended"], None)
+                self._begin(info["ended"])
         return self._observations(), rewards, terminated, truncated, info
 
     def drive(self, velocity: Any) -> np.ndarray:
@@ -201,14 +200,16 @@ class BatchEnv:
         """One world now; shows itself as a picture."""
         return self._core.frame(index)
 
-    def _begin(self, which: np.ndarray, seeds: list[int] | None) -> None:
-        if not self._ready:
-            raise RuntimeError("reset() comes first")
-        if seeds is None:
-            seeds = list(range(self._next_seed, self._next_seed + int(which.sum())))
-            self._next_seed += len(seeds)
-        self.seeds[which] = seeds
-        self._core.reset(self.seeds.tolist(), which.tolist())
+    def _begin(self, which: np.ndarray, seed: int | None = None) -> None:
+        count, seeds = int(which.sum()), self.seeds.copy()
+        if seed is not None and not 0 <= int(seed) <= 2**53 - count:
+            raise ValueError(f"seed: is {seed}; allowed: 0 to 2^53 - {count}")
+        first = self._next_seed if seed is None else int(seed)
+        seeds[which] = (first + np.arange(count)) % 2**53
+        self._core.reset(seeds.tolist(), which.tolist())
+        self.seeds = seeds
+        if seed is None:
+            self._next_seed = (first + count) % 2**53
 
     def _observations(self) -> Observations:
         return self._seen.copy() if self._copy else self._seen
@@ -264,7 +265,7 @@ class ParallelEnv:
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, np.ndarray], dict[str, dict[str, Any]]]:
-        """(observations, infos) by agent."""
+        """(observations, infos) by agent. Without a seed, the world of the next one: see BatchEnv.reset."""
         seen = self._batch.reset(seed)
         self.agents = list(self.possible_agents)
         return self._of_agents(seen), {agent: {} for agent in self.agents}

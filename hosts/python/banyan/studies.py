@@ -48,6 +48,7 @@ def study(
     controllers: Mapping[str, Any] | None = None,
     threads: int = 0,
     shard: tuple[int, int] = (1, 1),
+    replace: bool = False,
     retry: bool = False,
     extend: bool = False,
     mix_versions: bool = False,
@@ -61,9 +62,12 @@ def study(
                  stopped, by Ctrl-C too, resumes with the same call
     set          keys of all its scenarios, {"radio.loss": 0.3}; with_files: files laid over
     controllers  of your own by name, for mission.algorithm: a row beside the others. They share one core, since Python
-                 has one lock; start several processes with shard=(i, n) for more
+                 has one lock; start several processes with shard=(i, n) for more. Results that were made by another
+                 version of a controller are refused (docs/python.md says what tells versions apart)
     threads      0: all cores
-    retry, extend, mix_versions   as the command's options
+    replace      throws away what is in the folder and starts over, as the command's --force
+    retry        does anew the runs that have failed, and those of controllers that have changed since
+    extend, mix_versions          as the command's options
     progress     True: a line on a terminal; or a function of (done, wanted, failed, share)
 
     Returns the table of runs, a row for each: a pandas.DataFrame where pandas is installed (pandas=False: never, True:
@@ -76,9 +80,11 @@ def study(
     number, count = shard
     if not 1 <= number <= count:
         raise ValueError(f"shard: is ({number}, {count}); the first counts from 1 to the second")
+    if replace and count > 1:
+        raise ValueError("replace: would throw away the other shards, too; remove the folder first, or choose another")
     if threads < 0:
         raise ValueError(f"threads: is {threads}; 0 means all cores")
-    own = [described(each, name) for name, each in (controllers or {}).items()]
+    own = [described(each, name, told_apart=True) for name, each in (controllers or {}).items()]
     told = _Progress() if progress is True else progress or None
     try:
         done = _core.study(
@@ -90,6 +96,7 @@ def study(
             threads,
             number,
             count,
+            replace,
             retry,
             extend,
             mix_versions,

@@ -49,8 +49,8 @@ struct Algorithms {
   std::vector<std::unique_ptr<OutsideAlgorithm>> own;
   AlgorithmList list;
 };
-// Each of `own` is (name, summary, neighbours, payload, floats, beneath, make): make(facts) gives the object that
-// decides, with decide(arrays) and clone().
+// Each of `own` is (name, summary, neighbours, payload, floats, beneath, make, fingerprint): make(facts) gives the
+// object that decides, with decide(arrays) and clone().
 [[nodiscard]] std::shared_ptr<const Algorithms> algorithms_from(const py::sequence& own);
 // Changes of a scenario or a study: a key and its value as TOML, or "" and a file.
 [[nodiscard]] std::vector<config::Override> overrides_of(

@@ -56,8 +56,8 @@ py::dict facts_of(const Setup& setup, std::span<const Member> members) {
   return facts;
 }
 
-// From (name, summary, neighbours, payload, floats, beneath, make); make(facts) gives the object for PythonMind, and
-// None stands for arrays that are written between ticks.
+// From (name, summary, neighbours, payload, floats, beneath, make, fingerprint); make(facts) gives the object for
+// PythonMind, and None stands for arrays that are written between ticks.
 std::unique_ptr<OutsideAlgorithm> algorithm_from(const py::tuple& told) {
   Outside outside;
   outside.name = told[0].cast<std::string>();
@@ -73,6 +73,7 @@ std::unique_ptr<OutsideAlgorithm> algorithm_from(const py::tuple& told) {
       return std::make_unique<PythonMind>(Held(make.get()(facts_of(setup, members))));
     };
   }
+  outside.fingerprint = told[7].cast<std::string>();
   return std::make_unique<OutsideAlgorithm>(std::move(outside));
 }
 

@@ -29,7 +29,7 @@ struct Wanted {
   std::string folder;
   int threads = 0;  // 0: as many as there are cores
   Shard shard;
-  bool retry = false, extend = false, mix_versions = false;
+  bool replace = false, retry = false, extend = false, mix_versions = false;
 };
 
 [[noreturn]] void refuse(const std::vector<config::Problem>& problems) {
@@ -40,7 +40,7 @@ struct Wanted {
 }
 
 // No existing results may get lost: a folder is used only if it belongs to this very study.
-void check_folder(const Folder& folder, const Study& study, const Plan& plan, bool extend) {
+void check_folder(const Folder& folder, const Study& study, const Plan& plan, const Wanted& wanted) {
   std::error_code ignored;
   const auto there = finished(folder);
   if (!there && journals_in(folder.path).empty()) {
@@ -49,23 +49,35 @@ void check_folder(const Folder& folder, const Study& study, const Plan& plan, bo
       if (std::filesystem::exists(path, ignored))
         throw std::invalid_argument(path + " is not of a study; choose another folder by out=");
   }
-  if (!there || extend) return;
+  if (!there || wanted.extend || wanted.replace) return;
   if (there->study != study.name)
     throw std::invalid_argument(folder.path + " holds the finished study \"" + there->study +
                                 "\"; choose another folder by out=");
   if (there->plan != plan_text(plan))
-    throw std::invalid_argument(folder.path +
-                                " holds this study finished with another plan; extend=True keeps the runs that both "
-                                "have and makes the tables anew, or choose another folder by out=");
+    throw std::invalid_argument(
+        folder.path +
+        " holds this study finished with another plan; extend=True keeps the runs that both "
+        "have and makes the tables anew, replace=True starts over, or choose another folder by out=");
 }
 
 void check_builds(const Gathered& gathered, bool mix_versions) {
   if (mix_versions) return;
   for (const std::string& build : gathered.builds)
     if (build != this_build())
-      throw std::invalid_argument("the results that are there were made by banyan " + build + ", and this is " +
-                                  this_build() +
-                                  ": mix_versions=True goes on with both, or choose another folder by out=");
+      throw std::invalid_argument(
+          "the results that are there were made by banyan " + build + ", and this is " + this_build() +
+          ": mix_versions=True goes on with both, replace=True starts over, or choose another folder by out=");
+}
+
+void check_controllers(const Plan& plan, const Gathered& gathered, bool retry) {
+  if (retry) return;
+  std::string names;
+  for (const std::string& name : changed_algorithms(plan, gathered.outcomes))
+    names += (names.empty() ? "\"" : ", \"") + name + "\"";
+  if (!names.empty())
+    throw std::invalid_argument("the results that are there for " + names +
+                                " were made by another version of the controller: retry=True does its runs anew and "
+                                "keeps the others, replace=True starts over, or choose another folder by out=");
 }
 
 void make_folder(const std::string& path) {
@@ -98,8 +110,8 @@ Standing carry_out(const Plan& plan, const std::vector<std::size_t>& todo, const
 
 py::dict run_study(const std::string& path, const std::optional<std::string>& text,
                    const std::vector<std::pair<std::string, std::string>>& changes, const py::sequence& own,
-                   const std::string& folder_path, int threads, std::size_t shard, std::size_t shards, bool retry,
-                   bool extend, bool mix_versions, const py::object& told) {
+                   const std::string& folder_path, int threads, std::size_t shard, std::size_t shards, bool replace,
+                   bool retry, bool extend, bool mix_versions, const py::object& told) {
   const std::unique_lock alone(one_study, std::try_to_lock);
   if (!alone) throw std::runtime_error("another study is running in this process");
   const auto algorithms = algorithms_from(own);
@@ -108,8 +120,13 @@ py::dict run_study(const std::string& path, const std::optional<std::string>& te
   const auto loaded = text ? parse_study(path, *text, overrides) : load_study(path, overrides);
   if (!loaded.ok()) refuse(loaded.problems);
   const Study& study = loaded.study;
-  const Wanted wanted{
-      folder_path.empty() ? "out/" + study.name : folder_path, threads, {shard, shards}, retry, extend, mix_versions};
+  const Wanted wanted{folder_path.empty() ? "out/" + study.name : folder_path,
+                      threads,
+                      {shard, shards},
+                      replace,
+                      retry,
+                      extend,
+                      mix_versions};
   const Folder folder{wanted.folder};
   py::dict told_back;
   Standing standing;
@@ -117,9 +134,11 @@ py::dict run_study(const std::string& path, const std::optional<std::string>& te
     const py::gil_scoped_release others;
     const Plan plan = make_plan(study, algorithms->list);
     if (!plan.ok()) refuse(plan.problems);
-    check_folder(folder, study, plan, extend);
+    check_folder(folder, study, plan, wanted);
+    if (replace) throw_away(folder);
     auto gathered = gather(journals_in(folder.path), study.name);
     check_builds(gathered, mix_versions);
+    check_controllers(plan, gathered, retry);
     const auto todo = runs_to_do(plan, wanted.shard, gathered.outcomes, retry);
     make_folder(folder.path + "/journal");
     if (!todo.empty()) {
@@ -144,8 +163,8 @@ py::dict run_study(const std::string& path, const std::optional<std::string>& te
 
 void bind_study(py::module_& m) {
   m.def("study", &run_study, py::arg("path"), py::arg("text"), py::arg("changes"), py::arg("controllers"),
-        py::arg("folder"), py::arg("threads"), py::arg("shard"), py::arg("shards"), py::arg("retry"), py::arg("extend"),
-        py::arg("mix_versions"), py::arg("told"));
+        py::arg("folder"), py::arg("threads"), py::arg("shard"), py::arg("shards"), py::arg("replace"),
+        py::arg("retry"), py::arg("extend"), py::arg("mix_versions"), py::arg("told"));
 }
 
 }  // namespace banyan::python

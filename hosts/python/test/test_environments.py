@@ -106,6 +106,64 @@ def test_reset_one_and_automatically():
         env.reset_at(2)
 
 
+def test_every_episode_is_new_and_a_seed_brings_all_back():
+    def episodes(env, count, **begin):
+        hashes = []
+        for k in range(count):
+            env.reset(**(begin if k == 0 else {}))
+            hashes.append([env.hash(e) for e in range(env.num_envs)])
+        return hashes
+
+    env = banyan.BatchEnv("scenarios/three-targets.toml", 2, set=KEYS)
+    first = episodes(env, 10)
+    assert len({each for both in first for each in both}) == 20
+    sevens = episodes(env, 10, seed=7)
+    assert len({each for both in sevens for each in both}) == 20
+    assert episodes(env, 10, seed=7) == sevens and env.seeds.tolist() == [25, 26]
+    assert episodes(banyan.BatchEnv("scenarios/three-targets.toml", 2, set=KEYS, seed=7), 10) == sevens
+    # One world after the other, or many at once: the same worlds.
+    assert episodes(banyan.BatchEnv("scenarios/three-targets.toml", 20, set=KEYS), 1, seed=7) == [sum(sevens, [])]
+    env.reset_at(0)
+    assert env.seeds.tolist() == [27, 26]
+    env.reset()
+    assert env.seeds.tolist() == [28, 29]
+    for wrong in (-1, 2**53):
+        with pytest.raises(ValueError, match="seed: is"):
+            env.reset(seed=wrong)
+        with pytest.raises(ValueError, match="seed: is"):
+            env.reset_at(0, seed=wrong)
+    env.reset(seed=2**53 - 2)  # the last seeds, behind which the first come
+    env.reset()
+    assert env.seeds.tolist() == [0, 1]
+
+    single = banyan.ParallelEnv("scenarios/three-targets.toml", set=KEYS)
+    for _ in range(2):
+        starts = []
+        for k in range(20):
+            single.reset(**({"seed": 7} if k == 0 else {}))
+            starts.append(single._batch.hash())
+        assert starts == sum(sevens, [])
+
+
+def test_worlds_that_end_begin_anew_with_seeds_of_their_own():
+    env = banyan.BatchEnv("scenarios/three-targets.toml", 3, set={**KEYS, "mission.time_limit_s": 0.5}, auto_reset=True)
+
+    def seeds():
+        met = []
+        for _ in range(12):
+            met.append(env.seeds.tolist())
+            env.step(np.zeros((3, 9, 2)))
+        met.append(env.seeds.tolist())
+        env.reset()
+        return met + [env.seeds.tolist()]
+
+    env.reset(seed=4)
+    met = seeds()
+    assert {seed for each in met for seed in each} == set(range(4, 4 + 15)) and met[-1] == [16, 17, 18]
+    env.reset(seed=4)
+    assert seeds() == met
+
+
 def test_observations_are_kept_or_not():
     env = banyan.BatchEnv("scenarios/three-targets.toml", 2, set=KEYS)
     kept = env.reset()

@@ -91,6 +91,79 @@ def test_a_controller_beside_the_others(tmp_path):
     assert sum("no idea" in error for error in table["error"]) == 4
 
 
+CONTEST = {
+    "name": "told-apart",
+    "scenario": "scenarios/three-targets.toml",
+    "seeds": "1-3",
+    "set": {"mission.time_limit_s": 2},
+    "axes": [{"key": "mission.algorithm", "values": ["convoy", "mine"], "name": "algorithm"}],
+}
+
+
+def hashes(table, algorithm="mine"):
+    return table["hash"][table["algorithm"] == algorithm].tolist()
+
+
+class Turns(banyan.Policy):
+    speed = 0.1
+
+    def step(self, seen):
+        return np.full((18, 2), self.speed)
+
+
+@pytest.mark.parametrize("finished", [True, False])
+def test_rows_of_another_version_are_refused(tmp_path, monkeypatch, finished):
+    def study(**keys):
+        told = []
+        keys = {"controllers": {"mine": Turns}, "out": tmp_path / "s", "pandas": False, **keys}
+        table = banyan.study(CONTEST, progress=lambda *now: told.append(now), **keys)
+        return table, told[-1][1] if told else 0  # runs done
+
+    if finished:
+        first, done = study()
+        assert done == 6
+    else:
+        first, _ = study(shard=(1, 2))
+    monkeypatch.setattr(Turns, "speed", 0.2)
+    before = sorted((tmp_path / "s").rglob("*"))
+    with pytest.raises(ValueError, match='"mine".*another version') as refusal:
+        study()
+    for way in ("retry=True", "replace=True", "another folder by out="):
+        assert way in str(refusal.value)
+    assert sorted((tmp_path / "s").rglob("*")) == before
+    other, done = study(out=tmp_path / "other")
+    assert done == 6 and not set(hashes(other)) & set(hashes(first))
+    again, done = study(retry=True)  # only its own runs
+    assert done == (3 if finished else 4)
+    assert hashes(again) == hashes(other) and hashes(again, "convoy") == hashes(other, "convoy")
+    assert study()[1] == 0 and hashes(study()[0]) == hashes(other)
+    if finished:  # the first version's rows are still known to be its own
+        monkeypatch.setattr(Turns, "speed", 0.1)
+        back, done = study()
+        assert done == 0 and hashes(back) == hashes(first)
+        monkeypatch.setattr(Turns, "speed", 0.3)
+    fresh, done = study(replace=True)
+    assert done == 6 and len(fresh) == 6
+    with pytest.raises(ValueError, match="replace"):
+        study(replace=True, shard=(1, 2))
+
+
+def test_shards_and_resumption_go_on_with_the_same_version(tmp_path):
+    for number in (1, 2):
+        banyan.study(CONTEST, controllers={"mine": Turns}, out=tmp_path / "s", shard=(number, 2), progress=False)
+    told = []
+    again = {"controllers": {"mine": Turns}, "out": tmp_path / "s", "progress": lambda *now: told.append(now)}
+    assert len(banyan.study(CONTEST, **again)) == 6 and not told
+    assert len(banyan.study({**CONTEST, "seeds": "1-4"}, extend=True, **again)) == 8 and told[-1][1] == 2
+
+
+def test_replace_leaves_what_is_no_study_alone(tmp_path):
+    (tmp_path / "runs.csv").write_text("mine")
+    with pytest.raises(ValueError, match="not of a study"):
+        banyan.study(CONTEST, controllers={"mine": Turns}, out=tmp_path, progress=False, replace=True)
+    assert (tmp_path / "runs.csv").read_text() == "mine"
+
+
 def test_ctrl_c_stops_and_the_same_call_resumes(tmp_path):
     study = {**STUDY, "scenario": "scenarios/paper-medium.toml", "seeds": "1-5"}
     timer = threading.Timer(0.2, signal.raise_signal, [signal.SIGINT])

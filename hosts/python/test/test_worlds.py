@@ -3,6 +3,9 @@
 
 import copy
 import gc
+import multiprocessing
+import subprocess
+import sys
 import threading
 import xml.etree.ElementTree as xml
 
@@ -30,6 +33,48 @@ def test_any_number_of_threads_gives_the_same_bits(threads):
     for _ in range(60):
         alone.step()
     assert world.hash == alone.hash
+
+
+def test_a_forked_process_has_threads_of_its_own(small):
+    world, alone = banyan.World(small), banyan.World(small)
+    env = banyan.BatchEnv(small, 4, threads=2)
+    env.reset(seed=1)
+    world.step(10, threads=2)
+    alone.step(20)
+
+    def child(pipe):
+        env.step(np.zeros((4, 18, 2)))
+        world.step(10, threads=2)
+        pipe.send((world.hash, env.hash(3)))
+
+    fork = multiprocessing.get_context("fork")
+    for _ in range(2):  # the parent's threads are its own all the while
+        here, there = fork.Pipe()
+        process = fork.Process(target=child, args=(there,))
+        process.start()
+        answer = here.poll(20) and here.recv()
+        process.kill() if not answer else process.join(20)
+        assert answer and answer[0] == alone.hash and process.exitcode == 0
+    env.step(np.zeros((4, 18, 2)))
+    world.step(10, threads=2)
+    assert (world.hash, env.hash(3)) == answer
+
+
+@pytest.mark.parametrize("does", ["pass", "world.step(threads=2)", "world.step(threads=3)", "del world"])
+def test_a_forked_process_ends(does):
+    script = f"""
+import os, signal, banyan
+world = banyan.World("scenarios/three-targets.toml")
+world.step(threads=2)
+child = os.fork()
+if child == 0:
+    signal.alarm(20)
+    {does}
+    raise SystemExit(3)
+print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+    assert done.stdout == "3\n" and done.returncode == 0, done.stderr
 
 
 def test_arrays_show_the_present_without_copies(small):

@@ -47,9 +47,16 @@ struct Gathered {
 // damaged, and for two different results of one run.
 [[nodiscard]] Gathered gather(const std::vector<std::string>& sources, const std::string& study);
 
+// All that a study has written there, for it to start over. Throws record::FileBusy while another process writes there.
+void throw_away(const Folder& folder);
+
 // Indices of the shard's runs that are not known yet; with `retry` those that have failed, too.
 [[nodiscard]] std::vector<std::size_t> runs_to_do(const Plan& plan, const Shard& shard, const Outcomes& known,
                                                   bool retry);
+
+// Of the algorithms whose results are there, the names of those that have another fingerprint now: some run of the plan
+// is known of another one only.
+[[nodiscard]] std::vector<std::string> changed_algorithms(const Plan& plan, const Outcomes& known);
 
 // "0.1.0 (git 123abc)" of this program.
 [[nodiscard]] std::string this_build();

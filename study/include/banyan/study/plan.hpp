@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "banyan/study/study.hpp"
@@ -15,11 +16,13 @@ namespace banyan::study {
 // One simulation. Two rows of the table that ask for the same one share it.
 struct PlannedRun {
   std::string id;               // 16 hexadecimal digits: a digest of the configuration without name,
-                                // description and output
+                                // description and output. With an algorithm that has one, "-" and its fingerprint
   std::size_t combination = 0;  // index into Plan::combinations
   std::uint64_t seed = 0;
   std::string directory;  // readable, "worlds/algorithm=inwards,r=9/seed=17"
-  double cost = 0.0;      // robots times ticks of the time limit: an upper bound of robot-steps
+  // The same for all versions of its algorithm.
+  [[nodiscard]] std::string_view configured() const noexcept { return std::string_view(id).substr(0, 16); }
+  double cost = 0.0;  // robots times ticks of the time limit: an upper bound of robot-steps
 };
 
 // One row of the table.
@@ -34,7 +37,7 @@ struct Plan {
   std::vector<config::Configuration> combinations;  // of the axes' values; their seed means nothing
   std::vector<PlannedRun> runs;                     // no id twice
   std::vector<PlannedRow> rows;                     // parts in file order; the last axis and then the seed vary fastest
-  std::uint64_t digest = 0;                         // of the ids in order
+  std::uint64_t digest = 0;                         // of the ids in order, without fingerprints
   std::vector<std::string> algorithms;              // names of those that there are, in the order of their list
   std::vector<config::Problem> problems;            // warnings too
   [[nodiscard]] bool ok() const noexcept;

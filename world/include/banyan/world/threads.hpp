@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A fixed team of threads for the parallel phases of a tick. Work is cut into one contiguous chunk
-// per thread and every item writes only its own slots, so the result never depends on the team.
+// per thread and every item writes only its own slots, so the result never depends on the team. A forked process makes
+// a team of its own when it first needs one.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +20,7 @@ class Executor {
   [[nodiscard]] int threads() const noexcept { return threads_; }
 
   // Calls f(begin, end, worker) for chunks that cover [0, n), worker in [0, threads). Returns when
-  // all are done; rethrows nothing: f must not throw. No allocation.
+  // all are done; rethrows nothing: f must not throw. No allocation, except in a process that was forked since.
   template <class F> void parallel_for(std::size_t n, F&& f) {
     if (threads_ == 1) return f(std::size_t{0}, n, 0);
     run(
@@ -32,10 +33,14 @@ class Executor {
 
  private:
   using Call = void (*)(void*, std::size_t, std::size_t, int);
+  void start();
   void run(std::size_t n, Call call, void* context);
   struct Team;
+  struct End {
+    void operator()(Team* team) const;
+  };
   int threads_;
-  std::unique_ptr<Team> team_;
+  std::unique_ptr<Team, End> team_;
 };
 
 }  // namespace banyan::world

@@ -42,6 +42,8 @@ class Algorithm {
 
   [[nodiscard]] virtual std::string_view name() const noexcept = 0;     // as in mission.algorithm
   [[nodiscard]] virtual std::string_view summary() const noexcept = 0;  // one sentence
+  // Tells it from others of the same name; nothing for those that come with a program, whose version does.
+  [[nodiscard]] virtual std::string_view fingerprint() const noexcept { return {}; }
   // The rows of its table, in the order in which they are listed. Static lifetime.
   [[nodiscard]] virtual std::vector<const ParameterInfo*> parameters() const = 0;
   // Their values in that setup, one per row, in the units of the table. Keys that the algorithm does not
@@ -66,6 +68,7 @@ class AlgorithmElsewhere : public Algorithm {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return real_.name(); }
   [[nodiscard]] std::string_view summary() const noexcept override { return real_.summary(); }
+  [[nodiscard]] std::string_view fingerprint() const noexcept override { return real_.fingerprint(); }
   [[nodiscard]] std::vector<const ParameterInfo*> parameters() const override { return real_.parameters(); }
   [[nodiscard]] std::vector<float> values(const Setup& setup) const override { return real_.values(setup); }
   [[nodiscard]] std::string fault(const Setup& setup) const override { return real_.fault(setup); }

@@ -87,7 +87,7 @@ class OutsideSwarm final : public Swarm {
 
 // How such an algorithm is described.
 struct Outside {
-  std::string name, summary;
+  std::string name, summary, fingerprint;
   std::size_t neighbours = 32;
   std::size_t payload = 0;             // bytes
   bool floats = true;                  // the payload is a list of floats
@@ -104,6 +104,7 @@ class OutsideAlgorithm final : public Algorithm {
   explicit OutsideAlgorithm(Outside outside);
   [[nodiscard]] std::string_view name() const noexcept override { return outside_.name; }
   [[nodiscard]] std::string_view summary() const noexcept override { return outside_.summary; }
+  [[nodiscard]] std::string_view fingerprint() const noexcept override { return outside_.fingerprint; }
   [[nodiscard]] std::vector<const ParameterInfo*> parameters() const override;
   [[nodiscard]] std::vector<float> values(const Setup& setup) const override;
   [[nodiscard]] std::string fault(const Setup& setup) const override;
