@@ -38,12 +38,6 @@ study::Study tiny() {
   return study;
 }
 
-std::string text_of(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
 TEST(Arena, EveryContenderRunsAndEveryAlgorithmIsOne) {
   const study::Plan plan = study::make_plan(tiny(), algorithms());
   ASSERT_TRUE(plan.ok()) << config::to_string(plan.problems.front());
@@ -163,37 +157,6 @@ TEST(Arena, NoSeedOfATuningIsReportedOn) {
     }
   }
   EXPECT_EQ(arena("arena-full.toml").parts.at(0).seeds.size(), 50U);
-}
-
-TEST(Arena, ThePagesSayWhatTheFilesSay) {
-  const std::string page = text_of(root / "docs/arena.md"), tuning = text_of(root / "docs/tuning.md");
-  for (const char* name : {"arena.toml", "arena-full.toml"})
-    EXPECT_NE(page.find(" " + grouped(study::count_rows(arena(name))) + " runs"), std::string::npos) << name;
-  const auto plan = study::load_tune((root / "studies/tune-arena-convoy.toml").string(), algorithms()).plan;
-  const std::string effort = std::to_string(plan.evaluations() * plan.optimizer.islands) + " evaluations of " +
-                             std::to_string(plan.runs()) + " runs";
-  EXPECT_NE(page.find(effort), std::string::npos) << effort;
-  const study::Fitness::Weights ours, of_the_arena = plan.fitness.weights;
-  for (const auto& [name, weight] : {std::pair{"held", &study::Fitness::Weights::held},
-                                     {"time", &study::Fitness::Weights::time},
-                                     {"disconnected", &study::Fitness::Weights::disconnected},
-                                     {"committed", &study::Fitness::Weights::committed}}) {
-    EXPECT_EQ(of_the_arena.*weight, ours.*weight) << name;
-    const auto row = tuning.find("\n| `" + std::string(name) + "` |");
-    ASSERT_NE(row, std::string::npos) << name;
-    const std::string line = tuning.substr(row + 1, tuning.find('\n', row + 1) - row - 1);
-    EXPECT_TRUE(line.ends_with("| " + config::number_text(ours.*weight) + " |")) << line;
-  }
-}
-
-TEST(Arena, EveryContenderHasItsRowOnThePage) {
-  const std::string page = text_of(root / "docs/arena.md");
-  const auto study = arena();
-  for (const auto& axis : study.parts.at(0).axes) {
-    if (axis.name != "contender") continue;
-    for (const auto& value : axis.values)
-      EXPECT_NE(page.find("\n| " + value.label + " |"), std::string::npos) << value.label;
-  }
 }
 
 }  // namespace

@@ -275,26 +275,6 @@ TEST(SoakWatch, AReplacedWorkerIsCountedAlsoWhereItIsHeldUp) {
   EXPECT_FALSE(is_promised("replaced", s));
 }
 
-// The table of docs/soak.md: | `kind` | what it is | promised |
-TEST(SoakWatch, PromisesWhatItsPageSays) {
-  const Scenario plain = world::plain_scenario();
-  Scenario rough = plain;
-  rough.radio.model = world::RadioModel::Model::bursts;
-  std::ifstream page(BANYAN_SOAK_PAGE);
-  std::set<std::string> kinds;
-  for (std::string line; std::getline(page, line);) {
-    if (!line.starts_with("| `")) continue;
-    const std::string kind = line.substr(3, line.find('`', 3) - 3);
-    const std::string promised = line.substr(line.rfind("| ", line.size() - 3) + 2);
-    kinds.insert(kind);
-    const char* says = is_promised(kind, rough)   ? "in all missions |"
-                       : is_promised(kind, plain) ? "in plain missions |"
-                                                  : "reported only |";
-    EXPECT_EQ(promised, says) << kind;
-  }
-  EXPECT_EQ(kinds.size(), 13U);
-}
-
 TEST(SoakWatch, TooFewRobotsAreNoFinding) {
   Scenario s = world::plain_scenario();
   s.mission.algorithm = "inwards";  // whose workers are slow

@@ -376,33 +376,6 @@ columns = 2
   EXPECT_FALSE(one.figures[0].width_in || one.figures[0].columns);
 }
 
-// The table of docs/studies.md has the keys that the reader knows, no more and no less.
-TEST_F(StudyFile, TheKeysOfFiguresAreDocumented) {
-  const std::string message = all_problems(bad(head + "[[figures]]\nmetric = \"committed\"\nno_such_key = 1\n"));
-  const std::size_t begin = message.find("[figures[0]] has: ") + 18;
-  std::string known = message.substr(begin, message.find(')', begin) - begin) + ",";
-  std::set<std::string> keys;
-  while (!known.empty()) {
-    const std::size_t comma = known.find(','), first = known.find_first_not_of(' ');
-    keys.insert(known.substr(first, comma - first));
-    known.erase(0, comma + 1);
-  }
-  EXPECT_GT(keys.size(), 15U) << message;
-  const std::string page = contents(std::filesystem::path(BANYAN_SCENARIOS).parent_path() / "docs/studies.md");
-  const std::size_t section = page.find("## Figures");
-  std::set<std::string> documented;
-  for (std::size_t row = page.find("\n| `", section); row != std::string::npos && row < page.find("**Boxes.**");
-       row = page.find("\n| `", row + 1)) {
-    const std::string cell = page.substr(row + 2, page.find(" | ", row) - row - 2);
-    for (std::size_t quote = cell.find('`'); quote != std::string::npos;) {
-      const std::size_t end = cell.find('`', quote + 1);
-      documented.insert(cell.substr(quote + 1, end - quote - 1));
-      quote = cell.find('`', end + 1);
-    }
-  }
-  EXPECT_EQ(documented, keys);
-}
-
 TEST_F(StudyFile, SaysWhatIsWrongWithScalesAndWidths) {
   const std::string axes =
       "[[axes]]\nname = \"a\"\nkey = \"mission.algorithm\"\nvalues = [\"outwards\", \"inwards\"]\n";  // 3 to 6

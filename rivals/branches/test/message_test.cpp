@@ -7,7 +7,6 @@ namespace banyan::rivals::branches {
 namespace {
 
 struct Sample : Robots {
-  static constexpr const char* length_in_documents = "one of branches (\\d+)";
   static void fill(Message& m) {
     m.id = sender();
     for (RobotId* id : {&m.parent, &m.leaves, &m.joins, &m.held_by, &m.calls, &m.team, &m.needy, &m.sends, &m.root})

@@ -7,7 +7,6 @@ namespace banyan::rivals::chains {
 namespace {
 
 struct Sample : Robots {
-  static constexpr const char* length_in_documents = "one of chains (\\d+)";
   static void fill(Message& m) {
     m.id = sender();
     for (RobotId* id : {&m.worker, &m.asks, &m.root}) *id = robot();

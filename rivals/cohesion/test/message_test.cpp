@@ -7,7 +7,6 @@ namespace banyan::rivals::cohesion {
 namespace {
 
 struct Sample : Robots {
-  static constexpr const char* length_in_documents = "one of cohesion (\\d+)";
   static SaidVelocity velocity() { return {static_cast<std::int8_t>(byte()), static_cast<std::int8_t>(byte())}; }
   static void fill(Message& m) {
     m.id = sender();

@@ -2,7 +2,6 @@
 // What a rival says survives the way as bytes, and nothing else is accepted. Each instantiates Said with its Robots
 // (core/swarm_of.hpp) and
 //   fill(message)           draws every field. Listed by hand: one that visit_fields() forgot does not survive
-//   length_in_documents     how docs/rivals.md says how many bytes a message has
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,10 +9,6 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
-#include <regex>
-#include <string>
 #include <vector>
 
 #include "over_the_wire.hpp"
@@ -92,17 +87,9 @@ TYPED_TEST_P(Said, AnythingIsSurvived) {
   EXPECT_TRUE(holds);
 }
 
-TYPED_TEST_P(Said, IsAsLongAsTheDocumentsSay) {
-  std::ifstream in(BANYAN_SOURCE_DIR "/docs/rivals.md");
-  const std::string page{std::istreambuf_iterator<char>(in), {}};
-  std::smatch match;
-  ASSERT_TRUE(std::regex_search(page, match, std::regex(TypeParam::length_in_documents)));
-  EXPECT_EQ(std::stoul(match[1]), wire_size<typename TypeParam::Message>());
-}
-
 TYPED_TEST_P(Said, NobodyIsNoSender) { EXPECT_FALSE(over_the_wire(typename TypeParam::Message{}).has_value()); }
 
 REGISTER_TYPED_TEST_SUITE_P(Said, SurvivesTheWay, FitsIntoAPacket, AnyOtherBytesAreRefused, AnythingIsSurvived,
-                            IsAsLongAsTheDocumentsSay, NobodyIsNoSender);
+                            NobodyIsNoSender);
 
 }  // namespace banyan::rivals

@@ -8,7 +8,6 @@ namespace banyan::rivals::fiedler {
 namespace {
 
 struct Sample : Robots {
-  static constexpr const char* length_in_documents = "one of fiedler (\\d+)";
   static void fill(Message& m) {
     m.id = sender();
     for (float* real : {&m.component, &m.mean.value, &m.mean.integral, &m.square.value, &m.square.integral,

@@ -8,7 +8,6 @@ namespace banyan::rivals::link_consensus {
 namespace {
 
 struct Sample : Robots {
-  static constexpr const char* length_in_documents = "A message of link consensus has (\\d+) bytes";
   static void fill(Message& m) {
     m.id = sender();
     m.root = robot();

@@ -8,7 +8,6 @@ namespace banyan::rivals::mst {
 namespace {
 
 struct Sample : Robots {
-  static constexpr const char* length_in_documents = "one of mst (\\d+)";
   static void fill(Message& m) {
     m.id = sender();
     m.epoch = word();
