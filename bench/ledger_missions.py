@@ -15,7 +15,7 @@ from pathlib import Path
 # Columns of the table of runs that the ledger's own are made of (docs/file-formats.md).
 KEPT = ['git', 'robots', 'ticks', 'time_s', 'complete', 'time_limit_s', 'time_bound_s', 'completion_time_s', 'held_time_ratio', 'held_targets',
         'oracle_targets', 'oracle_ratio', 'committed_ratio', 'redundant_time_ratio', 'severed_ticks', 'broken_ticks_by_distance',
-        'broken_ticks_by_occlusion', 'split_ticks', 'replacements', 'bytes_per_robot_s', 'deaths', 'recovered', 'recovery_time_s', 'hash']
+        'broken_ticks_by_occlusion', 'split_ticks', 'replacements', 'bytes_per_robot_s', 'deaths', 'recovered', 'recovery_time_s']
 
 
 class Failed(Exception):

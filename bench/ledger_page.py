@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The ledger shown: a page for the terminal, Markdown, and a figure with a line for each class."""
 import math
+import statistics
 import subprocess
 import sys
 
@@ -73,7 +74,21 @@ def differences(one):
                '' if math.isnan(d.error) else signed(column, d.error).lstrip('+'), str(d.pairs or len(one.rows)), column.meaning]
 
 
-def terminal(judged, cost, against, words, detail=False):
+def by_axis(one, axes):
+    """A class apart: a row for each value of these axes of its missions, with what they come to now."""
+    groups = {}
+    for mission, row in one.missions:
+        labels = dict(text.split(' ', 1) for text in mission.split(', ') if ' ' in text)
+        groups.setdefault(tuple(labels.get(axis, '') for axis in axes), []).append(row)
+    columns = [column for column in COLUMNS.values() if column.on_page or column.name in (one.primary.name, 'recovery')]
+    values = {group: [[value for value in map(column.value, rows) if not math.isnan(value)] for column in columns] for group, rows in groups.items()}
+    shown = [n for n in range(len(columns)) if any(each[n] for each in values.values())]
+    yield [*axes, 'n', *(columns[n].title for n in shown)]
+    for group, each in values.items():
+        yield [*group, str(len(groups[group])), *(written(columns[n], statistics.fmean(each[n]) if each[n] else None) for n in shown)]
+
+
+def terminal(judged, cost, against, words, detail=False, by=()):
     colour = sys.stdout.isatty()
     lines = [f'\n{words}; shares and their differences in %, time and robots as ratios', '']
     table = aligned([heads(), *map(cells, judged)], left={0, len(heads()) - 3, len(heads()) - 1})
@@ -82,17 +97,18 @@ def terminal(judged, cost, against, words, detail=False):
     if detail:
         for one in judged:
             lines += ['', one.about, *aligned(list(differences(one)), left={0, 6})]
+            lines += ['', *aligned(list(by_axis(one, by)), left=set(range(len(by))))] if by else []
     return '\n'.join([*lines, '', *cost, *accepted_lines(against), verdicts(judged)])
 
 
-def markdown(judged, cost, against, words, detail=False):
+def markdown(judged, cost, against, words, detail=False, by=()):
     def table(rows):
         rows = list(rows)
         return ['| ' + ' | '.join(row) + ' |' for row in [rows[0], ['---'] * len(rows[0]), *rows[1:]]]
 
     lines = [f'{words[0].upper()}{words[1:]}. Shares and their differences in %, time and robots as ratios.', '', *table([heads(), *map(cells, judged)])]
     for one in judged if detail else []:
-        lines += ['', f'**{one.name}**: {one.about}', '', *table(differences(one))]
+        lines += ['', f'**{one.name}**: {one.about}', '', *table(by_axis(one, by) if by else differences(one))]
     notes = [*cost, *accepted_lines(against), verdicts(judged)]
     return '\n'.join([*lines, '', *(f'- {note}' for note in notes)])
 

@@ -82,9 +82,9 @@ class Difference:
 
 
 def t_quantile(degrees):
-    """97.5 % of Student's t: Abramowitz and Stegun 26.7.5, within 0.5 % from 3 degrees on; two exact below."""
-    if degrees < 3:
-        return {1: 12.706, 2: 4.303}.get(degrees, math.inf)
+    """97.5 % of Student's t: Abramowitz and Stegun 26.7.5, within 0.3 % from 5 degrees on; below, from a table."""
+    if degrees < 5:
+        return {1: 12.706, 2: 4.303, 3: 3.182, 4: 2.776}.get(degrees, math.inf)
     z = 1.959964
     v = degrees
     return (z + (z**3 + z) / (4 * v) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * v**2)
@@ -117,10 +117,14 @@ class Judged:
     kind: str
     primary: Column
     tolerance: float
-    rows: list
+    missions: list  # (name, row)
     columns: dict = field(default_factory=dict)  # name -> Difference, or None where no mission has a value
     verdict: str = ''
     times: list = field(default_factory=list)
+
+    @property
+    def rows(self):
+        return [row for _, row in self.missions]
 
     @property
     def words(self):
@@ -143,7 +147,7 @@ def signed(column, difference):
 def judge(one, rows, base):
     """A class judged by its primary column: better, not worse, undecided, worse; or new, without a baseline."""
     keys = [key for key in rows if key[1] == one.name]
-    judged = Judged(one.name, one.about, one.kind, COLUMNS[one.primary], one.tolerance, [rows[key] for key in keys])
+    judged = Judged(one.name, one.about, one.kind, COLUMNS[one.primary], one.tolerance, [(key[2], rows[key]) for key in keys])
     pairs = [(rows[key], base[key]) for key in keys if key in base]
     for name, column in COLUMNS.items():
         judged.columns[name] = differ(column, pairs) if pairs else alone(column, judged.rows)
