@@ -43,8 +43,8 @@ struct Gathered {
   std::vector<std::string> builds;  // "0.2.0 (git 123abc)" of each journal, each once
 };
 // A run that failed and succeeded elsewhere has succeeded; one whose row in a journal another version wrote has failed.
-// Throws record::FileError for what read_journal() throws, for a source of another study, for a table that is damaged or
-// of another version, and for two different results of one run.
+// Throws record::FileError for what read_journal() throws, for a source of another study, for a table that is damaged
+// or of another version, and for two different results of one run.
 [[nodiscard]] Gathered gather(const std::vector<std::string>& sources, const std::string& study);
 
 // Indices of the shard's runs that are not known yet; with `retry` those that have failed, too.
