@@ -46,7 +46,7 @@ class Arena:
 
 
 def numbers(runs, column):
-    """Its values, without the rows of earlier versions that lack it."""
+    """Its values, without those that do not exist."""
     return [float(r[column]) for r in runs if r.get(column)]
 
 

@@ -58,8 +58,6 @@ class Statistics:
 
     def compare(self, part, metric, pair=tuple(ALGORITHMS), **labels):
         of_pair = [r for r in self.comparisons[(part, metric)] if (r["first"], r["second"]) == pair]
-        if of_pair and "shift" not in of_pair[0]:
-            sys.exit("comparisons.csv is of an earlier version: make it anew with banyan collect (docs/studies.md)")
         return self._find(of_pair, labels)
 
 

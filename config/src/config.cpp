@@ -71,6 +71,11 @@ Node parse_scenario(const std::string& path, std::string_view text) {
   Node root = parse_document(path, text);
   const Node* format = root.find("format");
   if (format && format->string() && format->string()->starts_with("banyan.")) {
+    const Node* version = root.find("format_version");
+    const auto* number = version ? std::get_if<std::int64_t>(&version->value) : nullptr;
+    if (!number || *number != 1)
+      throw DocumentError(
+          {format->place, "format_version", "must be 1: run it with the version of banyan that wrote it"});
     if (const Node* config = root.find("config"); config && config->table()) return *config;
   }
   return root;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The complete configuration as JSON and as TOML, and its identity. The ids of runs in a study are computed from that:
-// with another order or form of the same values, every finished run would count as a new one.
+// The complete configuration as JSON and as TOML. The ids of runs in a study are computed from the JSON: with another
+// order or form of the same values, every finished run would count as a new one.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -22,26 +22,14 @@ struct ToJson {
   template <class Plain> Json operator()(const Plain& value) const { return value; }
 };
 
-enum class Completeness : std::uint8_t { complete, identity };
-
-// Texts from before there was this key mean its default.
+// The keys of one section that have an effect.
 template <class Owner>
-bool is_implied(const world::Key<Owner>& key, std::span<const world::Key<Owner>> keys, const world::Value& value) {
-  return key.terms.came_later && value == effective(key, keys, Owner{});
-}
-
-// The keys of one section that have an effect. Returns whether one was left out.
-template <class Owner>
-bool add_section(Json& table, std::string_view section, std::span<const world::Key<Owner>> keys, const Owner& owner,
-                 Completeness completeness) {
-  bool implied = false;
+void add_section(Json& table, std::string_view section, std::span<const world::Key<Owner>> keys, const Owner& owner) {
   for (const auto& key : keys) {
     if (key.section() != section) continue;
     const world::Value value = effective(key, keys, owner);
-    if (completeness == Completeness::identity && is_implied(key, keys, value)) implied = true;
-    else if (value.index() != 0) table[std::string(key.name())] = std::visit(ToJson{}, value);
+    if (value.index() != 0) table[std::string(key.name())] = std::visit(ToJson{}, value);
   }
-  return implied;
 }
 
 // The place of a section in the tree: root["swarm"]["start"].
@@ -55,7 +43,7 @@ Json& place_of_section(Json& root, std::string_view path) {
   return *at;
 }
 
-Json to_json(const Configuration& configuration, Completeness completeness = Completeness::complete) {
+Json to_json(const Configuration& configuration) {
   Json root = Json::object();
   for (const auto& section : sections()) {
     Json& place = place_of_section(root, section.path);
@@ -65,19 +53,16 @@ Json to_json(const Configuration& configuration, Completeness completeness = Com
         if (path != section.path) return;
         for (const auto& item : list) {
           place.push_back(Json::object());
-          add_section(place.back(), path, keys, item, completeness);
+          add_section(place.back(), path, keys, item);
         }
       });
       continue;
     }
     if (place.is_null()) place = Json::object();
-    bool implied = false;
-    each_part(configuration, [&](const auto& keys, const auto& owner) {
-      implied = add_section(place, section.path, keys, owner, completeness) || implied;
-    });
+    each_part(configuration,
+              [&](const auto& keys, const auto& owner) { add_section(place, section.path, keys, owner); });
     if (section.path == "mission.parameters")
       for (const auto& [key, value] : configuration.scenario.mission.parameters) place[key] = value;
-    if (implied && place.empty()) root.erase(std::string(section.path));
   }
   return root;
 }
@@ -119,10 +104,6 @@ void write_toml(const Json& table, const std::string& path, std::string& out) {
 
 std::string config_json(const Configuration& configuration, int indent) {
   return to_json(configuration).dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
-std::string identity_json(const Configuration& configuration) {
-  return to_json(configuration, Completeness::identity).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string config_toml(const Configuration& configuration) {

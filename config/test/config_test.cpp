@@ -438,12 +438,17 @@ TEST(Config, WrongOptionsAreNamedAsGiven) {
 
 TEST(Config, RunsTheResultOfAnEarlierRunAgain) {
   const auto first = parse(small, {"radio.loss=0.25"});
-  const auto again = parse_configuration(
-      "run.json",
-      R"({"format": "banyan.run", "result": {"name": "w"}, "config": )" + config_json(first.configuration, 2) + "}",
-      algorithms());
+  const auto again =
+      parse_configuration("run.json",
+                          R"({"format": "banyan.run", "format_version": 1, "result": {"name": "w"}, "config": )" +
+                              config_json(first.configuration, 2) + "}",
+                          algorithms());
   ASSERT_TRUE(again.ok()) << all_problems(again);
   EXPECT_EQ(config_json(again.configuration), config_json(first.configuration));
+  const auto later =
+      parse_configuration("run.json", R"({"format": "banyan.run", "format_version": 2, "config": {}})", algorithms());
+  EXPECT_TRUE(
+      says(later, "run.json:1: error: format_version: must be 1: run it with the version of banyan that wrote it"));
 }
 
 RC_GTEST_PROP(ConfigProperty, NoTextWhateverIsTooMuch, ()) {
@@ -526,21 +531,11 @@ TEST_F(Laid, ItsFaultsNameItsLine) {
 
 TEST(Trees, OfAnEarlierRunAreItsConfiguration) {
   const auto loaded = parse(small);
-  const auto document = R"({"format": "banyan.run", "config": )" + config_json(loaded.configuration) + "}";
+  const auto document =
+      R"({"format": "banyan.run", "format_version": 1, "config": )" + config_json(loaded.configuration) + "}";
   const auto again = configure(parse_scenario("run.json", document), "run.json", algorithms());
   ASSERT_TRUE(again.ok()) << all_problems(again);
   EXPECT_EQ(config_json(again.configuration), config_json(loaded.configuration));
-}
-
-// A file that commit 1eea8db wrote (record/test/earlier/README.md).
-TEST(Trees, AResultOfAnEarlierVersionIsRead) {
-  const auto loaded =
-      load_configuration(std::string(BANYAN_SCENARIOS) + "/../record/test/earlier/1eea8db.json", algorithms());
-  ASSERT_TRUE(loaded.ok()) << all_problems(loaded);
-  const world::Scenario& scenario = loaded.configuration.scenario;
-  EXPECT_EQ(world::robot_count(scenario), 18U);
-  EXPECT_EQ(scenario.mission.time_limit_s, 1.0);
-  EXPECT_TRUE(scenario.radio.line_of_sight);
 }
 
 TEST(Trees, KeepProblemsFoundBefore) {

@@ -192,6 +192,11 @@ TEST(Step, TheHashSeesEveryChange) {
   changed(s.detour.contact, Vec2{1, 0});
   changed(s.task_count, std::uint8_t{1});
   changed(s.lead_to, RobotId{3});
+  changed(s.shed, RobotId{3});
+  changed(s.short_want_cm, std::uint16_t{3});
+  changed(s.plan_steps, std::uint8_t{3});
+  changed(s.called_ticks, std::uint8_t{3});
+  changed(s.detour.again, true);
   changed(s.corners.pinned, true);
   changed(s.corners.landmarks.size, std::uint8_t{1});
   changed(s.corners.bodies.size, std::uint8_t{1});

@@ -142,11 +142,6 @@ bool flag_of(const json& object, std::string_view name) {
   return value.get<bool>();
 }
 
-// The same of a field that older recordings do not have.
-bool flag_of(const json& object, std::string_view name, bool otherwise) {
-  return object.contains(name) ? flag_of(object, name) : otherwise;
-}
-
 constexpr double most_ticks = 9007199254740992.0;  // 2^53: exact in JSON readers that use doubles
 
 std::uint64_t count_of(const json& object, std::string_view name, double maximum = most_ticks) {
@@ -343,12 +338,12 @@ std::vector<TargetFrame> read_targets(std::string_view text) {
   if (!x.is_array()) fail("x_m", "is not an array");
   const json& y = array_of(object, "y_m", x.size());
   const json& worker = array_of(object, "worker", x.size());
-  const json* active = object.contains("active") ? &array_of(object, "active", x.size()) : nullptr;
+  const json& active = array_of(object, "active", x.size());
   std::vector<TargetFrame> targets;
   for (std::size_t k = 0; k < x.size(); ++k) {
     targets.push_back({{number(x[k], "x_m", -far, far), number(y[k], "y_m", -far, far)},
                        static_cast<std::int32_t>(number(worker[k], "worker", -1.0, last_index)),
-                       active == nullptr || number((*active)[k], "active", 0.0, 1.0) != 0.0});
+                       number(active[k], "active", 0.0, 1.0) != 0.0});
   }
   return targets;
 }
@@ -379,8 +374,7 @@ measure::Tick read_metrics(std::string_view text) {
   t.edges = count("edges");
   t.broken_by_distance = count("broken_by_distance");
   t.broken_by_occlusion = count("broken_by_occlusion");
-  if (o.contains("broken_after_silence"))
-    t.broken_after_silence = count("broken_after_silence");  // older recordings lack it
+  t.broken_after_silence = count("broken_after_silence");
   t.components = count("components");
   t.components_by_distance = count("components_by_distance");
   t.fiedler_low = flag_of(o, "fiedler_low");
@@ -479,8 +473,8 @@ Setting read_setting(std::string_view text) {
   s.radius_m = number_of(o, "radius_m", 0.0, far);
   s.range_m = number_of(o, "range_m", 0.0, far);
   s.line_of_sight = flag_of(o, "line_of_sight");
-  if (o.contains("sight_leak")) s.sight_leak = number_of(o, "sight_leak", 0.0, 1.0);  // older recordings lack it
-  s.dead_bodies = flag_of(o, "dead_bodies", true);
+  s.sight_leak = number_of(o, "sight_leak", 0.0, 1.0);
+  s.dead_bodies = flag_of(o, "dead_bodies");
   s.target_tolerance_m = number_of(o, "target_tolerance_m", 0.0, far);
   s.time_limit_s = number_of(o, "time_limit_s", 0.0, far);
   const json& obstacles = member(o, "obstacles");

@@ -15,6 +15,8 @@
 
 namespace banyan::record {
 
+inline constexpr std::string_view recording_format_version = "1";
+
 void write_frame(Text& out, const Frame& frame);  // without the targets
 // An array per field that is_recorded(), a number per robot.
 void write_messages(Text& out, std::uint64_t tick, double time_s, const MessageNumbers& messages);

@@ -170,7 +170,7 @@ Recorder::Recorder(std::string path, Provenance provenance, RecorderOptions opti
   Impl& r = *impl_;
   r.file.keep_part();
   r.mcap.metadata({"banyan.provenance",
-                   {{"format_version", "1"},
+                   {{"format_version", std::string(recording_format_version)},
                     {"version", r.provenance.version},
                     {"git", r.provenance.git},
                     {"seed", std::to_string(r.provenance.seed)},

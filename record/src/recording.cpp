@@ -46,9 +46,11 @@ void Recording::Impl::read_provenance(const mcap::Map& entries) {
   provenance = {entry("config"), entry("version"), entry("git"), 0};
   const std::string seed = entry("seed");
   std::from_chars(seed.data(), seed.data() + seed.size(), provenance.seed);
-  if (entry("format_version") != "1") {
-    warn("its format version is '" + entry("format_version") + "', this program knows 1");
-  }
+  if (entry("format_version") != recording_format_version)
+    throw FileError(reader.path(), "is a recording of format version '" + entry("format_version") +
+                                       "', and this program reads " + std::string(recording_format_version) +
+                                       ": open it with the version of banyan that made it (" + provenance.version +
+                                       "), or run the scenario again");
 }
 
 void Recording::Impl::read_all_metadata() {
@@ -73,7 +75,6 @@ void Recording::Impl::read_all_metadata() {
   if (!setting_found) warn("it does not say robot radius and radio range (no banyan.setting); defaults are assumed");
 }
 
-// Recordings made before there was such a channel have the one of the metadata.
 void Recording::Impl::read_all_settings() {
   const mcap::Channel* channel = reader.find_channel("/banyan/setting");
   if (channel == nullptr) return;

@@ -85,30 +85,35 @@ TEST(Frames, NameRobotsBeyondSixteenBits) {
   EXPECT_TRUE(survives(99'999));
   EXPECT_TRUE(survives(999'999));
   EXPECT_THROW((void)survives(1'000'000), std::runtime_error);
-  EXPECT_EQ(read_targets(R"({"tick":0,"time_s":0,"x_m":[1],"y_m":[3],"worker":[99999]})")[0].worker, 99'999);
+  EXPECT_EQ(read_targets(R"({"x_m":[1],"y_m":[3],"worker":[99999],"active":[1]})")[0].worker, 99'999);
 }
 
 TEST(Frames, HaveNoArrayOfChargesWithoutBatteries) {
   expect_only_if_any("spent", &RobotFrame::spent, 0.25, "\"spent\":[0.000,0.250]");
 }
 
-TEST(Older, FieldsThatWereNotThereHaveTheirDefaults) {
-  const auto targets = read_targets(R"({"tick":0,"time_s":0,"x_m":[1,2],"y_m":[3,4],"worker":[0,-1]})");
+TEST(Targets, AreReadWholeOrNotAtAll) {
+  const auto targets = read_targets(R"({"x_m":[1,2],"y_m":[3,4],"worker":[0,-1],"active":[1,0]})");
   ASSERT_EQ(targets.size(), 2U);
-  EXPECT_TRUE(targets[0].active && targets[1].active);
-  EXPECT_THROW((void)read_targets(R"({"x_m":[1],"y_m":[3],"worker":[0],"active":[]})"), std::runtime_error);
+  EXPECT_TRUE(targets[0].active && !targets[1].active);
+  for (const char* text :
+       {R"({"x_m":[1],"y_m":[3],"worker":[0],"active":[]})", R"({"x_m":[1],"y_m":[3],"worker":[0]})"})
+    EXPECT_THROW((void)read_targets(text), std::runtime_error) << text;
+}
+
+TEST(Settings, HaveAllTheirFields) {
   Text text;
   Setting setting;
   setting.dead_bodies = false;
   setting.sight_leak = 0.18;
   write_setting(text, setting);
-  Json object = Json::parse(text.view());
-  EXPECT_FALSE(read_setting(object.dump()).dead_bodies);
-  object.erase("dead_bodies");
-  EXPECT_TRUE(read_setting(object.dump()).dead_bodies);
-  EXPECT_EQ(read_setting(object.dump()).sight_leak, setting.sight_leak);
-  object.erase("sight_leak");
-  EXPECT_EQ(read_setting(object.dump()).sight_leak, 0.0);
+  EXPECT_TRUE(read_setting(text.view()) == setting);
+  const Json whole = Json::parse(text.view());
+  for (const auto& field : whole.items()) {
+    Json object = whole;
+    object.erase(field.key());
+    EXPECT_THROW((void)read_setting(object.dump()), std::runtime_error) << field.key();
+  }
 }
 
 template <class Message> std::vector<double> shown(const Message& message) {

@@ -126,7 +126,7 @@ inline measure::Run sample_run(std::uint64_t ticks) {
 }
 
 inline Provenance sample_provenance() {
-  return {R"({"mission":{"algorithm":"outwards"},"n":[1,2]})", "0.1.0", "abc1234", 42};
+  return {R"({"mission":{"algorithm":"outwards"},"n":[1,2]})", "0.2.0", "abc1234", 42};
 }
 
 // Ticks 0 .. ticks-1.

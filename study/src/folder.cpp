@@ -22,6 +22,7 @@ using record::Existing;
 using record::FileError;
 
 constexpr std::string_view study_format = "banyan.study";
+constexpr int study_format_version = 1;
 
 ordered_json study_json(const Study& study, const Plan& plan, const Outcomes& outcomes, const Results& results,
                         const std::vector<std::string>& builds) {
@@ -40,7 +41,7 @@ ordered_json study_json(const Study& study, const Plan& plan, const Outcomes& ou
     parts.push_back({{"name", part.name}, {"scenario", part.scenario}, {"seeds", part.seeds}, {"axes", axes}});
   }
   return {{"format", study_format},
-          {"format_version", 1},
+          {"format_version", study_format_version},
           {"study", study.name},
           {"description", study.description},
           {"plan", plan_text(plan)},
@@ -116,6 +117,9 @@ std::optional<Finished> finished(const Folder& folder) {
   const auto runs = value_in<std::uint64_t>(json, "runs");
   if (value_in<std::string>(json, "format") != study_format || !study || !plan || !runs)
     throw FileError(folder.json(), "is not what a study writes; choose another folder, or remove it");
+  if (value_in<double>(json, "format_version") != study_format_version)
+    throw FileError(folder.json(),
+                    "was written by another version of banyan; go on with that one, or in another folder");
   return Finished{*study, *plan, *runs};
 }
 
@@ -131,16 +135,10 @@ static bool same_result(const std::string& row, const std::string& other) {
   return true;
 }
 
-// The rows that this program can put into its tables, those of earlier versions with empty fields for what they lack.
-// A row with other columns is ignored.
-static Outcome readable(const Outcome& outcome) {
-  if (!outcome.error.empty()) return outcome;
-  const auto cells = record::run_cells(outcome.row);
-  if (!cells) return {"", "its row has other columns: written by another version of banyan", outcome.wall_s};
-  Outcome current{"", "", outcome.wall_s};
-  for (const auto& cell : *cells) current.row += record::csv_quoted(cell) + ",";
-  current.row.pop_back();
-  return current;
+// A row that this program cannot put into its tables counts as a run that failed.
+static Outcome readable(const Outcome& outcome, const std::string& path) {
+  if (!outcome.error.empty() || record::run_cells(outcome.row)) return outcome;
+  return {"", path + ": the row was written by another version of banyan; --retry runs it again", outcome.wall_s};
 }
 
 static void add_build(Gathered& gathered, const std::string& build) {
@@ -149,7 +147,7 @@ static void add_build(Gathered& gathered, const std::string& build) {
 }
 
 static void add_outcome(Gathered& gathered, const std::string& path, const std::string& id, const Outcome& written) {
-  const Outcome outcome = readable(written);
+  const Outcome outcome = readable(written, path);
   const auto [at, added] = gathered.outcomes.emplace(id, outcome);
   if (added) return;
   if (!at->second.error.empty()) at->second = outcome;
@@ -168,12 +166,17 @@ static void gather_journal(Gathered& gathered, const std::string& path, const st
   for (const auto& entry : content.entries) add_outcome(gathered, path, entry.id, entry.outcome);
 }
 
-// Where the columns of a table stand. Those of a run are found by name: a table of an earlier version has fewer, and
-// what it lacks stays empty.
+// Where the columns of a table stand.
 struct TableColumns {
   std::size_t study = 0, run = 0, error = 0, count = 0;
-  std::vector<std::size_t> of_run;  // by column of a run; count: not there
+  std::vector<std::size_t> of_run;  // by column of a run
 };
+
+[[noreturn]] static void refuse_table(const std::string& path, const std::string& why) {
+  throw FileError(path, why +
+                            ": the table was written by another version of banyan; collect it with that version, "
+                            "or run the study again");
+}
 
 static TableColumns table_columns(const std::string& path, const std::string& header) {
   const auto names = record::csv_cells(header);
@@ -183,7 +186,10 @@ static TableColumns table_columns(const std::string& path, const std::string& he
   TableColumns columns{find("study"), find("run"), find("error"), names.size(), {}};
   if (std::max({columns.study, columns.run, columns.error}) == names.size())
     throw FileError(path, "has no columns \"study\", \"run\" and \"error\": not the table of a study");
-  for (const auto& column : record::run_columns()) columns.of_run.push_back(find(column.name));
+  for (const auto& column : record::run_columns()) {
+    columns.of_run.push_back(find(column.name));
+    if (columns.of_run.back() == names.size()) refuse_table(path, "has no column \"" + std::string(column.name) + "\"");
+  }
   return columns;
 }
 
@@ -191,12 +197,13 @@ static void gather_row(Gathered& gathered, const std::string& path, const std::v
                        const TableColumns& columns) {
   std::string row, version, git;
   for (std::size_t c = 0; c < columns.of_run.size(); ++c) {
-    const std::string cell = columns.of_run[c] < columns.count ? cells[columns.of_run[c]] : "";
+    const std::string& cell = cells[columns.of_run[c]];
     row += (c > 0 ? "," : "") + record::csv_quoted(cell);
     if (record::run_columns()[c].name == "version") version = cell;
     if (record::run_columns()[c].name == "git") git = cell;
   }
   const std::string& error = cells[columns.error];
+  if (error.empty() && !record::run_cells(row)) refuse_table(path, "has rows of another format_version");
   add_build(gathered, build_text(version, git));
   add_outcome(gathered, path, cells[columns.run], {error.empty() ? row : "", error, 0.0});
 }

@@ -97,7 +97,9 @@ JournalContent parse(const std::string& path, std::string_view text) {
     if (number == 1 || (line && line->contains("format"))) {
       if (!line || value_in<std::string>(*line, "format") != journal_format) fail("this is no journal of a study");
       if (value_in<double>(*line, "format_version") != journal_format_version)
-        fail("the journal is of another format version");
+        fail(
+            "the journal is of another format version; go on with the version of banyan that wrote it, or in another "
+            "folder");
       if (!read_header(*line, content)) fail("this is no journal of a study");
     } else if (auto entry = line ? entry_in(*line) : std::nullopt) {
       content.entries.push_back(std::move(*entry));

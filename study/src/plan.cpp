@@ -26,11 +26,9 @@ class Identity {
     bare.scenario.name.clear();
     bare.scenario.description.clear();
     bare.scenario.seed = 0;
-    text_ = config::identity_json(bare);
-    // [output] with the keys of the first version: ids of runs do not change when new outputs are added.
-    constexpr std::string_view key = "\"output\":{", seed = "\"seed\":";
-    const auto begin = text_.find(key) + key.size();
-    text_.replace(begin, text_.find('}', begin) - begin, R"("record":true,"record_every":1,"series":false)");
+    bare.output = {};
+    text_ = config::config_json(bare);
+    constexpr std::string_view seed = "\"seed\":";
     seed_at_ = text_.find(seed) + seed.size();
   }
   [[nodiscard]] std::string id(std::uint64_t seed) const {

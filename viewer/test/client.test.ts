@@ -63,7 +63,7 @@ describe('a source', () => {
     expect(source.events.value.at(-1)!.kind).toBe('complete');
     expect(source.settingAt(3)!.range_m).toBe(2);
     const message = await source.message(0, 20);
-    if (message !== null) expect(message).toMatchObject({ id: 0, phase: 3 }); // older recordings have none
+    expect(message).toMatchObject({ id: 0, phase: 3 });
     await expect(source.intervene(3, [])).rejects.toThrow('a recording cannot be changed');
     expect(source.failure.value).toBeNull();
   });

@@ -11,7 +11,7 @@ import { bytesOf, open, random, zstd } from './support';
 const noPause = async () => {};
 
 /** Another program's file, or one of Banyan's made by hand. */
-async function written(topics: Record<string, object[]>, options: object = {}, metadata: [string, object][] = []): Promise<Uint8Array<ArrayBuffer>> {
+async function written(topics: Record<string, object[]>, options: object = {}, metadata: [string, Record<string, string>][] = []): Promise<Uint8Array<ArrayBuffer>> {
   const parts: Uint8Array[] = [];
   let size = 0n;
   const writable = {
@@ -20,9 +20,7 @@ async function written(topics: Record<string, object[]>, options: object = {}, m
   };
   const writer = new McapWriter({ writable, ...options });
   await writer.start({ profile: '', library: 'test' });
-  for (const [name, value] of metadata) {
-    await writer.addMetadata({ name, metadata: new Map([['json', JSON.stringify(value)]]) });
-  }
+  for (const [name, entries] of metadata) await writer.addMetadata({ name, metadata: new Map(Object.entries(entries)) });
   for (const [topic, messages] of Object.entries(topics)) {
     const channelId = await writer.registerChannel({ schemaId: 0, topic, messageEncoding: 'json', metadata: new Map() });
     for (const [sequence, message] of messages.entries()) {
@@ -42,8 +40,10 @@ function frameJson(tick: number, robots = 2): Record<string, unknown> {
 }
 const setting = {
   name: 'by hand', algorithm: 'convoy', reading: 'corrected', seed: 1, tick_s: 0.1, radius_m: 0.1, range_m: 3,
-  line_of_sight: true, target_tolerance_m: 0.2, time_limit_s: 9, obstacles: [],
+  line_of_sight: true, sight_leak: 0, dead_bodies: true, target_tolerance_m: 0.2, time_limit_s: 9, obstacles: [],
 };
+
+const told = (value: object): [string, Record<string, string>] => ['banyan.setting', { json: JSON.stringify(value) }];
 
 describe('what is no recording is told in words', () => {
   it.each([
@@ -162,7 +162,7 @@ describe('what a file says is not trusted', () => {
   ];
   it.each(bad)('a frame with %s is skipped', async (_, change) => {
     const frames = [frameJson(0), { ...frameJson(1), ...change }, frameJson(2)];
-    const recording = await open(await written({ '/banyan/frame': frames }, {}, [['banyan.setting', setting]]));
+    const recording = await open(await written({ '/banyan/frame': frames }, {}, [told(setting)]));
     const reply = await recording.frames(0, 1, 1);
     expect(reply.frames.map((f) => f.tick)).toEqual([0, 2]);
     expect(recording.headerNow().warnings.join()).toContain('the frame at 0.1 s was skipped');
@@ -181,21 +181,27 @@ describe('what a file says is not trusted', () => {
   });
 
   it('a damaged setting keeps what is sound in it', async () => {
-    const bytes = await written({ '/banyan/frame': [frameJson(0)] }, {}, [['banyan.setting', { ...setting, radius_m: 'big', tick_s: 0 }]]);
+    const bytes = await written({ '/banyan/frame': [frameJson(0)] }, {}, [told({ ...setting, radius_m: 'big', tick_s: 0 })]);
     const { settings, warnings } = (await open(bytes)).headerNow();
     expect(settings[0].setting).toMatchObject({ range_m: 3, radius_m: 0.07, tick_s: 0.1, line_of_sight: true });
     expect(warnings.join()).toContain("the setting's 'radius_m' is not a number; a default is assumed");
   });
 });
 
-describe('newer recordings', () => {
-  it('have settings that change, and messages', async () => {
+describe('a recording', () => {
+  it('of another format version is refused', async () => {
+    const bytes = await written({ '/banyan/frame': [frameJson(0)] }, {}, [['banyan.provenance', { format_version: '2', version: '0.9.0' }]]);
+    await expect(open(bytes)).rejects.toThrow(
+      "is a recording of format version '2', and this page reads 1: open it with the version of banyan that made it (0.9.0)");
+  });
+
+  it('has settings that change, and messages', async () => {
     const moved = { ...setting, time_s: 0.5, obstacles: [{ disc: true, center_m: [1, 2], radius_m: 0.3 }] };
     const bytes = await written({
       '/banyan/setting': [setting, moved],
       '/banyan/frame': Array.from({ length: 10 }, (_, tick) => ({ ...frameJson(tick), role: [3, 1] })),
       '/banyan/messages': [1, 4].map((tick) => ({ tick, time_s: tick / 10, flood_done: [0, 1], root_id: [tick, -1] })),
-    }, {}, [['banyan.setting', setting]]);
+    }, {}, [told(setting)]);
     const recording = await open(bytes);
     const { settings } = recording.headerNow();
     expect(settings.map((s) => [s.timeS, s.setting.obstacles.length])).toEqual([[0, 0], [0.5, 1]]);

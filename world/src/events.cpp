@@ -228,7 +228,6 @@ void World::Impl::set_line_of_sight(bool on) {
 // Nothing if an event that waited for its moment has taken away what this one refers to.
 void World::Impl::change_obstacles(const Action& action) {
   if (!change(obstacles, action)) return;
-  obstacles_changed = obstacles_changed || !std::holds_alternative<MoveObstacle>(action);
   bodies->set_obstacles(obstacles);
   radio.set_obstacles(obstacles);
   proximity.set_obstacles(obstacles);
@@ -243,24 +242,19 @@ Scenario World::Impl::with(const Event& event) const {
   return changed;
 }
 
-// Settings that an event can change are hashed where they differ from the scenario's.
+// Settings that an event can change.
 void World::Impl::add_events(Digest& digest) const noexcept {
-  if (silent_until > tick) digest.add(silent_until);
-  if (line_of_sight != scenario.radio.line_of_sight) digest.add(line_of_sight);
-  if (obstacles_changed) digest.add(obstacles.size());
-  for (std::size_t k = 0; k < obstacles.size(); ++k) {
-    const Vec2 center = center_of(obstacles[k]);
-    if (!obstacles_changed && center == center_of(scenario.obstacles[k])) continue;
-    digest.add(k);
-    digest.add(center);
-    if (const Disc* disc = std::get_if<Disc>(&obstacles[k]); obstacles_changed && disc != nullptr)
-      digest.add(disc->radius_m);
+  digest.add(silent_until);
+  digest.add(line_of_sight);
+  digest.add(obstacles.size());
+  for (const Obstacle& obstacle : obstacles) {
+    digest.add(center_of(obstacle));
+    if (const Disc* disc = std::get_if<Disc>(&obstacle); disc != nullptr) digest.add(disc->radius_m);
   }
-  const bool half_way_counts = event_queue.waits_for(Event::When::half_way);
+  digest.add(targets.size());
   for (std::size_t t = 0; t < targets.size(); ++t) {
-    if (!targets[t].active) digest.add(t);
-    if (half_way_counts) digest.add(courses[t].start_m);
-    if (courses[t].speed_m_s == 0.0) continue;
+    digest.add(targets[t].active);
+    digest.add(courses[t].start_m);
     digest.add(courses[t].goal);
     digest.add(courses[t].speed_m_s);
   }

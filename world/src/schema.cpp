@@ -156,7 +156,7 @@ constexpr Key<Scenario> scenario_rows[] = {
      "with stop_when_complete: go on this long after completion, so that the tree can settle"},
     {"mission.link_redundancy", of<&Mission::link_redundancy>, "", {1.0, 3.0},
      "k: paths between any two targets that share no other robot, so that any k - 1 robots can die at once; above 1 "
-     "only with an algorithm that has rules for it, as convoy has", {.came_later = true}},
+     "only with an algorithm that has rules for it, as convoy has"},
 
     {"swarm.robots", of<&SwarmModel::robots>, "", robots_of_swarm, "number of robots",
      {.otherwise = "from redundancy, or the length of start.positions_m"}},
@@ -214,15 +214,14 @@ constexpr Key<Scenario> scenario_rows[] = {
 
     {"radio.model", of<&RadioModel::model>, "", any_value,
      "which packets are lost within range and sight: disc, each with the same probability; bursts, many in a row; "
-     "path_loss, more the farther away the sender is; one_way, between some pairs all those in one direction",
-     {.came_later = true}},
+     "path_loss, more the farther away the sender is; one_way, between some pairs all those in one direction"},
     {"radio.range_m", of<&RadioModel::range_m>, "m", {0.05, 100.0},
      "C: two robots nearer than this hear each other", {.parameter = "communication_range_m"}},
     {"radio.line_of_sight", of<&RadioModel::line_of_sight>, "", any_value,
      "robots and obstacles in between block a packet"},
     {"radio.sight_leak", of<&RadioModel::sight_leak>, "", any_share,
      "share of the lines of sight past one robot's body that let packets through nevertheless; headings decide which; "
-     "0: sight is exact; 0.18 as in ARGoS 3", {.came_later = true}},
+     "0: sight is exact; 0.18 as in ARGoS 3"},
     {"radio.loss", of<&RadioModel::loss>, "", any_share,
      "probability that a packet does not arrive, per packet and receiver"},
     {"radio.burst_s", by<radio_of<&RadioModel::burst_s, Radios::bursts>>, "s", {0.0, 60.0, true},
@@ -252,7 +251,7 @@ constexpr Key<Scenario> scenario_rows[] = {
 
     {"battery.model", of<&Battery::model>, "", any_value,
      "how the charge sinks: none, not at all; power, by what each part draws; time, motion and time_motion, as in "
-     "ARGoS, by shares of the charge", {.came_later = true}},
+     "ARGoS, by shares of the charge"},
     {"battery.capacity_j", by<battery_of<&Battery::capacity_j>>, "J", {0.0, 1e9, true}, "energy of a full battery"},
     {"battery.start_charge", by<battery_of<&Battery::start_charge>>, "", any_part, "charge at the start, as a share"},
     {"battery.start_spread", by<battery_of<&Battery::start_spread>>, "", any_share,

@@ -111,7 +111,6 @@ World::Impl::Impl(const Impl& o)
       loss(o.loss),
       line_of_sight(o.line_of_sight),
       obstacles(o.obstacles),
-      obstacles_changed(o.obstacles_changed),
       tick(o.tick),
       poses(o.poses),
       bodies(o.bodies->clone()),
@@ -434,7 +433,7 @@ std::uint64_t World::hash() const noexcept {
     d.add(w.alive[i]);
     d.add(w.frozen_until[i]);
     w.swarm->add_to(d, i);
-    if (w.given_up[i] != nobody) d.add(w.given_up[i]);
+    d.add(w.given_up[i]);
     d.add(w.commands[i].forward_m_s);
     d.add(w.commands[i].sideways_m_s);
     d.add(w.commands[i].turn_rad_s);

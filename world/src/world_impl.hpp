@@ -118,7 +118,6 @@ struct World::Impl {
   double loss;                      // radio.loss, now
   bool line_of_sight;               // now, and so are
   std::vector<Obstacle> obstacles;  // these; radio, proximity and bodies have copies
-  bool obstacles_changed = false;   // some were added or taken away
   std::uint64_t tick = 0;
   std::uint64_t moment = 0;  // what is drawn now is drawn for: the tick, or the substep
 

@@ -150,14 +150,13 @@ void add_to(Digest& digest, const TreeState& state) noexcept {
     digest.add(table.id(k));
     digest.add(table.age(k));
     digest.add(table.position(k));
+    digest.add(table.measurements(k));
     TreeMessage said;
     static_cast<TreeStanding&>(said) = table.message(k);
     said.id = table.id(k);
     add_to(digest, said);
   }
-  if (!table.filter().has_seen_noise()) return;
   table.filter().visit(add);
-  for (int k = 0; k < table.size(); ++k) digest.add(table.measurements(k));
 }
 
 }  // namespace banyan

@@ -122,7 +122,7 @@ TYPED_TEST(Wire, ByteOrderIsLittleEndianWhateverTheMachine) {
   auto m = of_robot<TypeParam>(0x1234);
   m.epoch = 0xABCD;
   const auto bytes = encoded(m);
-  EXPECT_EQ(bytes[0] & 0x0F, wire_version);
+  EXPECT_EQ(bytes[0] & 0x07, wire_version);
   EXPECT_EQ(bytes[3], 0x34);
   EXPECT_EQ(bytes[4], 0x12);
   EXPECT_EQ(bytes[5], 0xCD);

@@ -46,7 +46,7 @@ TEST(Power, RobotsWithAndWithoutBatteriesDoNotTakeEachOthersMessages) {
   PoweredConvoyMessage m;
   m.id = 3;
   encode_fields(m, powered);
-  EXPECT_EQ(powered[0] & 0x0F, further_wire_version);
+  EXPECT_EQ(powered[0], ConvoyMessage::blocks | block::further | wire_version);
   EXPECT_EQ(powered[1], block::power);
   EXPECT_FALSE(decode_fields<ConvoyMessage>(powered).has_value());
   EXPECT_FALSE(decode_fields<ConvoyMessage>(std::span(powered).first(wire_size<ConvoyMessage>())).has_value());

@@ -72,14 +72,13 @@ export function parseTargets(text: string): Targets {
   if (x.length > mostRobots) fail('x_m', `has ${x.length} targets; the page shows at most ${mostRobots}`);
   const y = arrayAt(object, 'y_m', x.length);
   const worker = arrayAt(object, 'worker', x.length);
-  // Recordings made before targets could be told apart have none: all are active.
-  const active = member(object, 'active') === undefined ? null : arrayAt(object, 'active', x.length);
+  const active = arrayAt(object, 'active', x.length);
   return {
     x: Float64Array.from(x, (v) => numberIn(v, 'x_m', -far, far)),
     y: Float64Array.from(y, (v) => numberIn(v, 'y_m', -far, far)),
     worker: Int32Array.from(worker, (v, k) => {
       const first = numberIn(v, 'worker', -1, mostId);
-      return active === null || numberIn(active[k], 'active', 0, 1) !== 0 ? first : givenUp;
+      return numberIn(active[k], 'active', 0, 1) !== 0 ? first : givenUp;
     }),
   };
 }

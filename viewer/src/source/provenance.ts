@@ -2,7 +2,7 @@
 // What a recording says about itself: its program, what a picture needs to know, how the run ended.
 import type { Setting } from '../frame';
 import { Malformed } from './json';
-import type { Warnings } from './problem';
+import { Problem, type Warnings } from './problem';
 import { defaultSetting, parseSetting } from './setting';
 import type { Track } from './track';
 
@@ -13,14 +13,20 @@ export interface Provenance {
   config: string;
 }
 
+const formatVersion = '1';
+
 type Metadata = ReadonlyMap<string, ReadonlyMap<string, string>>;
 
+/** Throws a Problem for a recording of another format. */
 export function readProvenance(metadata: Metadata, warnings: Warnings): Provenance {
   const entries = metadata.get('banyan.provenance');
   if (entries === undefined) warnings.add('it does not say where it comes from (no banyan.provenance)');
   const entry = (key: string) => entries?.get(key) ?? '';
-  if (entries !== undefined && entry('format_version') !== '1') {
-    warnings.add(`its format version is '${entry('format_version').slice(0, 16)}', this page knows 1`);
+  if (entries !== undefined && entry('format_version') !== formatVersion) {
+    throw new Problem(
+      `is a recording of format version '${entry('format_version').slice(0, 16)}', and this page reads ${formatVersion}: ` +
+      `open it with the version of banyan that made it (${entry('version').slice(0, 16)}), or run the scenario again`,
+    );
   }
   const seed = Number(entry('seed'));
   return {
@@ -37,7 +43,7 @@ export interface TimedSetting {
   setting: Setting;
 }
 
-/** From the channel, where settings that change are; in older recordings from the metadata. Never empty. */
+/** From the channel, where settings that change are; without it from the metadata. Never empty. */
 export async function readSettings(track: Track | null, metadata: Metadata, warnings: Warnings): Promise<TimedSetting[]> {
   const settings: TimedSetting[] = [];
   const take = (timeS: number, text: string) => {

@@ -16,8 +16,8 @@ const mostObstacles = 100000;
 
 // Numbers that must be in a range; a tick below a microsecond would make every clock stand still.
 const numbers = {
-  seed: [0, 2 ** 64], tick_s: [1e-6, 3600], radius_m: [0, far], range_m: [0, far], target_tolerance_m: [0, far],
-  time_limit_s: [0, far],
+  seed: [0, 2 ** 64], tick_s: [1e-6, 3600], radius_m: [0, far], range_m: [0, far], sight_leak: [0, 1],
+  target_tolerance_m: [0, far], time_limit_s: [0, far],
 } as const;
 const texts = ['name', 'algorithm', 'reading'] as const;
 
@@ -44,9 +44,7 @@ export function parseSetting(text: string, warn: (text: string) => void): Settin
     });
   }
   attempt(() => { setting.line_of_sight = flagOf(object, 'line_of_sight'); });
-  // Older recordings do not have these.
-  if (member(object, 'sight_leak') !== undefined) attempt(() => { setting.sight_leak = numberAt(object, 'sight_leak', 0, 1); });
-  if (member(object, 'dead_bodies') !== undefined) attempt(() => { setting.dead_bodies = flagOf(object, 'dead_bodies'); });
+  attempt(() => { setting.dead_bodies = flagOf(object, 'dead_bodies'); });
   attempt(() => { setting.obstacles = arrayAt(object, 'obstacles').slice(0, mostObstacles).map(parseObstacle); });
   return setting;
 }

@@ -2,9 +2,9 @@
 // Which events are worth a jump, and the jumping.
 import type { RunEvent } from '../frame';
 
-/** What [ and ] stop at. `recruited` is what older recordings call an insertion too. */
+/** What [ and ] stop at. */
 export const notableKinds: ReadonlySet<string> = new Set([
-  'inserted', 'recruited', 'root', 'edges_broken', 'death', 'split', 'complete',
+  'inserted', 'root', 'edges_broken', 'death', 'split', 'complete',
   'set_loss', 'blackout', 'line_of_sight', 'target_added', 'target_removed', 'obstacle_added', 'obstacle_removed',
 ]);
 

@@ -42,9 +42,6 @@ struct Loaded {
 
 // The complete effective configuration. Read back, it gives the same scenario, bit for bit.
 [[nodiscard]] std::string config_json(const Configuration& configuration, int indent = -1);
-// The same as JSON for who asks whether two are the same: keys that came later are left out at their defaults, so that
-// the text stays what it was before there were these keys.
-[[nodiscard]] std::string identity_json(const Configuration& configuration);
 [[nodiscard]] std::string config_toml(const Configuration& configuration);
 
 }  // namespace banyan::config

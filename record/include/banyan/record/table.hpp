@@ -51,7 +51,6 @@ template <class Row> struct Column {
   std::string_view meaning;
   int decimals;  // of a double
   Cell (*cell)(const Row&);
-  int since = 1;                     // format version of the table that was the first to have it
   std::string_view in_figures = {};  // what figures call it; "": its name without underscores
 };
 [[nodiscard]] std::span<const Column<RunRow>> run_columns() noexcept;
@@ -62,8 +61,7 @@ template <class Row> struct Column {
 // Lines without their end; RFC 4180 quoting.
 [[nodiscard]] std::string run_csv_header();
 [[nodiscard]] std::string run_csv_row(const RunRow& row);
-// The fields of a row of this format version or of an earlier one, under the columns of this version: empty where an
-// earlier one had no such column; its last field still says which it was. Nothing if the row is of neither.
+// The fields of a row, one for each column. Nothing if it is of another format version or has other columns.
 [[nodiscard]] std::optional<std::vector<std::string>> run_cells(std::string_view row);
 // {"format":"banyan.run","format_version":1,"config":{…},"result":{column: value, …}}, indented.
 [[nodiscard]] std::string run_json(const RunRow& row, std::string_view config_json);

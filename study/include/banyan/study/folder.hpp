@@ -40,11 +40,11 @@ struct Finished {
 // Results of several journals and tables together.
 struct Gathered {
   Outcomes outcomes;
-  std::vector<std::string> builds;  // "0.1.0 (git 123abc)" of each journal, each once
+  std::vector<std::string> builds;  // "0.2.0 (git 123abc)" of each journal, each once
 };
-// A run that failed and succeeded elsewhere has succeeded; one whose row has other columns than this program's has
-// failed. Throws record::FileError for what read_journal() throws, for a source of another study, for a table that is
-// damaged, and for two different results of one run.
+// A run that failed and succeeded elsewhere has succeeded; one whose row in a journal another version wrote has failed.
+// Throws record::FileError for what read_journal() throws, for a source of another study, for a table that is damaged
+// or of another version, and for two different results of one run.
 [[nodiscard]] Gathered gather(const std::vector<std::string>& sources, const std::string& study);
 
 // All that a study has written there, for it to start over. Throws record::FileBusy while another process writes there.
@@ -58,7 +58,7 @@ void throw_away(const Folder& folder);
 // is known of another one only.
 [[nodiscard]] std::vector<std::string> changed_algorithms(const Plan& plan, const Outcomes& known);
 
-// "0.1.0 (git 123abc)" of this program.
+// "0.2.0 (git 123abc)" of this program.
 [[nodiscard]] std::string this_build();
 
 // Writes everything that is made from the journals, replacing what was made before; returns what

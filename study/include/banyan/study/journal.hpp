@@ -22,11 +22,11 @@ struct JournalEntry {
 // program that wrote it.
 struct JournalContent {
   std::string study, version, git;    // the last two of the program that wrote to it last
-  std::vector<std::string> builds;    // "0.1.0 (git 123abc)" of all that have, each once
+  std::vector<std::string> builds;    // "0.2.0 (git 123abc)" of all that have, each once
   std::vector<JournalEntry> entries;  // in the order of the file
   std::uint64_t bytes = 0;            // of whole lines; what follows is the torn end of a last line
 };
-// "0.1.0 (git 123abc)"
+// "0.2.0 (git 123abc)"
 [[nodiscard]] std::string build_text(const std::string& version, const std::string& git);
 // Throws record::FileError if it cannot be read, is no journal, or a line in its middle is damaged:
 // the message names the line and says that it may be deleted. A torn last line is what a kill

@@ -63,7 +63,6 @@ struct Terms {
   std::string_view selector = "";    // the path of the key that decides whether it applies, if not its section's
   std::string_view parameter = "";   // of the controller, which follows from it
   bool only_in_files = false;        // its range: a program may go beyond it
-  bool came_later = false;           // than the first results: at its default it is no part of a run's identity
 };
 
 template <class Owner> struct Key {

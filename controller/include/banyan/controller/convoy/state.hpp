@@ -73,19 +73,13 @@ template <class Visitor, class State> constexpr void visit_convoy_state(Visitor&
   visit(s.pending_ticks), visit(s.warned), visit(s.above), visit(s.below), visit(s.lead_to), visit(s.led_from),
       visit(s.lead_ticks);
   visit(s.settled_ticks), visit(s.unsettled_ticks), visit(s.plan_ticks);
-  for (int k = 0; k < s.task_count; ++k) visit(s.hosts[static_cast<std::size_t>(k)]);
-  // Left out where they are not in use, so that hashes of runs without them are those of before.
-  if (s.shed != nobody) visit(s.shed);
-  if (s.short_ticks != 0) visit(s.short_ticks), visit(s.short_want_cm), visit(s.short_reached);
-  if (s.tried_with != 0) visit(s.tried_with);
-  if (s.plan_targets != 0) {
-    visit(s.plan_targets), visit(s.plan_levels), visit(s.plan_steps);
-    for (int k = 0; k < s.task_count; ++k)
-      visit(s.planned[static_cast<std::size_t>(k)]), visit(s.plan_level[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < s.task_count; ++k) {
+    const auto n = static_cast<std::size_t>(k);
+    visit(s.hosts[n]), visit(s.planned[n]), visit(s.plan_level[n]);
   }
-  if (s.accompanies != nobody) visit(s.accompanies);
-  if (s.alone_ticks != 0) visit(s.alone_ticks);
-  if (s.too_few_to_fold) visit(s.too_few_to_fold);
+  visit(s.plan_targets), visit(s.plan_levels), visit(s.plan_steps);
+  visit(s.shed), visit(s.short_ticks), visit(s.short_want_cm), visit(s.short_reached), visit(s.tried_with);
+  visit(s.accompanies), visit(s.alone_ticks), visit(s.too_few_to_fold);
   visit(s.corners.pinned), visit(s.corners.seen_from), visit(s.corners.landmarks.size);
   for (int k = 0; k < s.corners.landmarks.size; ++k) visit(s.corners.landmarks.points[static_cast<std::size_t>(k)]);
   for (std::size_t k = 0; k < s.corners.bodies.size; ++k)

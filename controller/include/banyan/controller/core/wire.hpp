@@ -27,18 +27,18 @@
 
 namespace banyan {
 
-// The header byte: what a message is made of, and the version of the format.
+// The header byte: the version of the format in its low three bits, and what a message is made of.
+inline constexpr std::uint8_t wire_version = 1;
 namespace block {
-inline constexpr std::uint8_t tree = 0;  // always there
+inline constexpr std::uint8_t tree = 0;           // always there
+inline constexpr std::uint8_t further = 1U << 3;  // a second byte follows, which names blocks beyond these
 inline constexpr std::uint8_t healing = 1U << 4;
 inline constexpr std::uint8_t obstacles = 1U << 5;
 inline constexpr std::uint8_t convoy = 1U << 6;
 inline constexpr std::uint8_t wide_ids = 1U << 7;  // ids and numbers of robots have 32 bits
-// A message with blocks beyond these has a second byte, which names them.
+// In the second byte:
 inline constexpr std::uint8_t power = 1U << 0;
 }  // namespace block
-inline constexpr std::uint8_t wire_version = 8;          // the low four bits
-inline constexpr std::uint8_t further_wire_version = 9;  // of messages with a second byte
 
 inline constexpr std::size_t largest_plain_wire = 96;                  // bytes, without further blocks
 inline constexpr std::size_t largest_wire = has_wide_ids ? 160 : 112;  // with them, and with wide ids
@@ -246,8 +246,8 @@ inline constexpr std::size_t longest_wire = wire_size<Message>(has_wide_ids ? wi
 
 // Its first byte.
 template <class Message> constexpr std::uint8_t header_of(std::size_t id_bytes = wire::narrow) noexcept {
-  return static_cast<std::uint8_t>(Message::blocks |
-                                   (further_blocks_of<Message>() != 0 ? further_wire_version : wire_version) |
+  return static_cast<std::uint8_t>(wire_version | Message::blocks |
+                                   (further_blocks_of<Message>() != 0 ? block::further : 0) |
                                    (id_bytes == wire::wide ? block::wide_ids : 0));
 }
 

@@ -109,20 +109,13 @@ template <class Visitor, class State> constexpr void visit_healing_state(Visitor
     auto& task = s.tasks[static_cast<std::size_t>(k)];
     visit(task.serves), visit(task.holder), visit(task.beat), visit(task.age_ticks), visit(task.target),
         visit(task.via), visit(bool{task.silent}), visit(bool{task.reached}), visit(bool{task.gave_up}),
-        visit(task.urgent_ticks);
-    if (task.unlocated) visit(bool{task.unlocated});
-    if (task.times_put_off != 0) visit(std::uint8_t{task.times_put_off});
+        visit(task.urgent_ticks), visit(bool{task.unlocated}), visit(std::uint8_t{task.times_put_off});
   }
   visit(s.detour.side), visit(s.detour.contact), visit(s.detour.origin), visit(s.detour.goal), visit(s.detour.leave_m),
-      visit(s.detour.span_m);
-  if (s.neighbors_at_start != 0) visit(s.neighbors_at_start);
-  if (s.usual_silence != 0) visit(s.usual_silence);
-  if (s.missed_in_the_clear != 0) visit(s.missed_in_the_clear);
-  if (s.burst_ticks != 0) visit(s.burst_ticks);
-  if (s.watched != nobody) visit(s.watched), visit(s.watched_ticks);
-  visit(s.named), visit(bool{s.calls});
-  if (s.caller != nobody) visit(s.caller), visit(s.called_ticks);
-  if (s.detour.last_side != 0) visit(s.detour.last_side), visit(s.detour.again);
+      visit(s.detour.span_m), visit(s.detour.last_side), visit(s.detour.again);
+  visit(s.neighbors_at_start), visit(s.usual_silence), visit(s.missed_in_the_clear), visit(s.burst_ticks),
+      visit(s.watched), visit(s.watched_ticks);
+  visit(s.named), visit(bool{s.calls}), visit(s.caller), visit(s.called_ticks);
   for (int k = 0; k < s.neighbors.size(); ++k)
     visit(s.healing_standings[static_cast<std::size_t>(k)].serves),
         visit(s.neighbors.deaf_ticks[static_cast<std::size_t>(k)]);

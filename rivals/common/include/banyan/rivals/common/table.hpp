@@ -42,11 +42,10 @@ template <class Message> struct Table : Neighbors {
       digest.add(id(k));
       digest.add(age(k));
       digest.add(position(k));
+      digest.add(measurements(k));
       visit_fields(fields, message(k));
     }
-    if (!filter().has_seen_noise()) return;
     filter().visit([&](const auto& field) { digest.add(field); });
-    for (int k = 0; k < size(); ++k) digest.add(measurements(k));
   }
 };
 
