@@ -32,7 +32,7 @@ async function hashShown(tab: Page): Promise<string> {
 
 /** Of a native run that ends after so many ticks of 0.1 s. */
 function nativeHash(file: string, ticks: number, out: string): string {
-  const json = banyan('run', file, '--no-record', '--json', '--set', `mission.time_limit_s=${ticks / 10}`, '--set', 'mission.stop_when_complete=false', '--out', join(folder.path, out));
+  const json = banyan('run', file, '--no-record', '--json', '--set', `mission.time_limit_s=${ticks / 10}`, '--set', 'mission.stop_when_complete=false', '--force', '--out', join(folder.path, out));
   return (JSON.parse(json) as { result: { hash: string } }).result.hash;
 }
 
