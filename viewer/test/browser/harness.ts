@@ -10,7 +10,7 @@ import { chromium, type Browser, type BrowserContext, type Page } from 'playwrig
 import { afterAll, beforeAll } from 'vitest';
 import { waitForRun } from './visitor';
 
-export const root = fileURLToPath(new URL('../../..', import.meta.url));
+const root = fileURLToPath(new URL('../../..', import.meta.url));
 export const program = process.env.BANYAN ?? join(root, 'build/check/bin/banyan');
 export const page = process.env.BANYAN_PAGE ?? join(root, 'build/viewer/page');
 export const scenario = (name: string) => join(root, 'scenarios', `${name}.toml`);
@@ -75,14 +75,9 @@ async function start(): Promise<Browser> {
   });
 }
 
+/** They last as long as the test: a run that goes on in a page nobody looks at slows down the tests after it. */
 const contexts = new Set<BrowserContext>();
 
-/** As long as the test: a run that goes on in a page nobody looks at slows down the tests after it. */
-export async function newContext(browser: Browser, options: Parameters<Browser['newContext']>[0] = {}): Promise<BrowserContext> {
-  const context = await browser.newContext(options);
-  contexts.add(context);
-  return context;
-}
 export async function closeContexts(): Promise<void> {
   await Promise.all([...contexts].map((context) => context.close()));
   contexts.clear();
@@ -90,7 +85,8 @@ export async function closeContexts(): Promise<void> {
 
 /** A page on which any error that nobody caught fails the test that asks for `errors`. */
 export async function open(browser: Browser, url: string, size = { width: 1280, height: 720 }): Promise<{ tab: Page; errors: string[] }> {
-  const context = await newContext(browser, { viewport: size });
+  const context = await browser.newContext({ viewport: size });
+  contexts.add(context);
   const tab = await context.newPage();
   const errors: string[] = [];
   tab.on('pageerror', (error) => errors.push(String(error)));

@@ -1,213 +1,125 @@
 // SPDX-License-Identifier: MIT
-// A live run in the page: its address, its story, its keys, what is kept of it.
+// A live run in the page, the simulation in WebAssembly: what is done to it, what is kept of it, what stands beside it.
 import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
-import { banyan, scenario, served, Server } from './harness';
-import { hashShown, isPlaying, killByKeys, lossShown, nativeHash, playTo, savedOfLive } from './live_run';
-import { clickRobot, expectEvent, factsShown, placeOf, seekTo, settle, timeShown, waitForRun } from './visitor';
+import { banyan, scenario, served } from './harness';
+import { clickRobot, expectEvent, factsShown, placeOf, saved, seekTo, settle, timeShown } from './visitor';
 
 const { folder, visit } = served(() => scenario('three-targets'));
 
+/** Plays on to a moment, and stands there. */
+async function playTo(tab: Page, timeS: number): Promise<void> {
+  if (await tab.$('button.play[aria-label^="Play"]')) await tab.click('button.play');
+  await tab.selectOption('select[aria-label=Speed]', '64');
+  await tab.waitForFunction((t) => Number(document.querySelector<HTMLInputElement>('.timeline input')!.value) >= t, timeS);
+  await seekTo(tab, timeS);
+}
+
+async function killByKeys(tab: Page, robot: number): Promise<void> {
+  await tab.keyboard.type(String(robot));
+  await tab.keyboard.press('Enter');
+  await tab.keyboard.press('Delete');
+}
+
+async function hashShown(tab: Page): Promise<string> {
+  await tab.click('#tab-run');
+  await tab.click('text=State hash');
+  await tab.waitForFunction(() => /^[0-9a-f]{16}/.test(document.querySelector('.hash')?.textContent ?? ''));
+  return (await tab.textContent('.hash'))!;
+}
+
+/** Of a native run that ends after so many ticks of 0.1 s. */
+function nativeHash(file: string, ticks: number, out: string): string {
+  const json = banyan('run', file, '--no-record', '--json', '--set', `mission.time_limit_s=${ticks / 10}`, '--set', 'mission.stop_when_complete=false', '--force', '--out', join(folder.path, out));
+  return (JSON.parse(json) as { result: { hash: string } }).result.hash;
+}
+
+async function savedOfLive(tab: Page, button: string): Promise<string> {
+  await tab.click('#tab-live');
+  return await saved(tab, `text=${button}`, folder.path);
+}
+
+async function dragTo(tab: Page, from: { x: number; y: number }, to: { x: number; y: number }): Promise<void> {
+  await tab.mouse.move(from.x, from.y);
+  await tab.mouse.down();
+  for (let k = 1; k <= 5; ++k) await tab.mouse.move(from.x + ((to.x - from.x) * k) / 5, from.y + ((to.y - from.y) * k) / 5);
+  await tab.mouse.up();
+  await settle(tab);
+}
+
+/** Until so many are shown. */
+const waitForRuns = (tab: Page, count: number) => tab.waitForFunction((n) => document.querySelectorAll('.stage').length === n, count);
+const captions = (tab: Page) => tab.$$eval('.caption > p:first-child', (all) => all.map((e) => e.textContent ?? ''));
+
+async function openInspectors(tab: Page): Promise<void> {
+  await tab.waitForSelector('.run-inspector[open]');
+  await tab.$$eval('.run-inspector', (all) => { for (const e of all) (e as HTMLDetailsElement).open = true; });
+}
+
+async function addFile(tab: Page, file: string): Promise<void> {
+  const chooser = tab.waitForEvent('filechooser');
+  await tab.click('text=Add …');
+  await (await chooser).setFiles(file);
+}
+
 describe('a live run', () => {
-  it('is an address, from which the page and the program come to the same hash', async () => {
+  it('has after 200 ticks the state hash of the native run', async () => {
     const { tab, errors } = await visit();
-    await playTo(tab, 5);
-    await killByKeys(tab, 5);
-    await playTo(tab, 6);
-    await tab.click('#tab-live');
-    await tab.click('text=Blackout');
     await playTo(tab, 20);
-    await clickRobot(tab, 3);
-    const shown = await hashShown(tab);
-    await tab.click('text=Copy link');
-    await expect.poll(() => new URL(tab.url()).hash).toContain('do=');
-    const link = tab.url().replace('?start', ''); // elsewhere
-    expect(shown).toBe(`${nativeHash(folder, link, 200, 'linked')} at tick 200`);
-    const again = await tab.context().newPage();
-    await again.goto(link);
-    await waitForRun(again);
-    await expect.poll(() => timeShown(again)).toBeCloseTo(20);
-    await expect.poll(() => again.textContent('.robot-head h2')).toBe('Robot 3');
-    expect(await hashShown(again)).toBe(shown);
-    for (const words of ['robot 5 died', 'blackout']) await expectEvent(again, words);
-    await again.close();
-    // Elsewhere, by `banyan view LINK`: on another port, and from another server's address.
-    const server = await Server.start(link.replace(/^http:\/\/[^/]*/, 'https://example.org/elsewhere'));
-    try {
-      await tab.goto(server.url);
-      await waitForRun(tab);
-      await expect.poll(() => timeShown(tab)).toBeCloseTo(20);
-      expect(await hashShown(tab)).toBe(shown);
-      expect(await tab.textContent('.robot-head h2')).toBe('Robot 3');
-    } finally {
-      await server.stop();
-    }
+    expect(await hashShown(tab)).toBe(`${nativeHash(scenario('three-targets'), 200, 'native')} at tick 200`);
     expect(errors).toEqual([]);
   });
 
-  it('says what was done and how it ended: in caption, list and story', async () => {
+  it('goes back in time, does something else, and forgets what was', async () => {
     const { tab } = await visit();
-    await playTo(tab, 3);
-    await tab.click('#tab-live');
-    await tab.fill('#live-loss', '0.3');
-    await tab.dispatchEvent('#live-loss', 'change');
-    await settle(tab);
-    await expect.poll(() => tab.textContent('.caption')).toContain('30 % loss');
-    await tab.click('text=Blackout');
-    await settle(tab);
-    await expect.poll(() => tab.textContent('.caption')).toContain('blackout');
-    await expect.poll(() => tab.textContent('.story')).toMatch(/^[0-3] of 3 targets held/);
-    await playTo(tab, 60);
-    await expect.poll(() => tab.textContent('.story')).toMatch(/^Complete after \d+\.\d s · \d+ of 18 robots used/);
-    await expectEvent(tab, 'packet loss is 30 % from now on');
-    await expectEvent(tab, 'blackout: nobody hears anything for 1 s');
-    await tab.click('#tab-run');
-    expect(await tab.textContent('.headline')).toMatch(/^Complete after/);
-  });
-
-  it('has places that are chosen by keys: a target is added and moved, an area dies', async () => {
-    const { tab } = await visit();
-    await playTo(tab, 2);
-    const keys = async (...names: string[]) => { for (const name of names) await tab.keyboard.press(name); };
-    await keys('t', 'ArrowUp', 'Shift+ArrowUp', 'Enter');
-    await expect.poll(() => tab.textContent('.caption')).toContain('4 targets');
-    const before = await placeOf(tab, 'target', 3);
-    await keys('Shift+p', 'g', 'Shift+ArrowRight', 'Enter');
-    await settle(tab);
-    await expect.poll(async () => Math.round((await placeOf(tab, 'target', 3)).x - before.x)).toBeGreaterThan(30);
-    await keys('k', 'ArrowUp', 'Enter', ...Array<string>(5).fill('Shift+ArrowLeft'), ...Array<string>(4).fill('Shift+ArrowDown'), 'Enter');
-    await expect.poll(() => tab.textContent('.caption')).toMatch(/[1-9]\d* dead/);
-  });
-
-  it('is reset to its begin, without what was done', async () => {
-    const { tab } = await visit();
-    await playTo(tab, 5);
+    await playTo(tab, 10);
     await killByKeys(tab, 5);
-    await playTo(tab, 7);
-    await tab.click('#tab-live');
-    await tab.click('button:text-is("Reset")');
-    await settle(tab);
-    expect(await timeShown(tab)).toBeLessThan(1);
-    await playTo(tab, 20);
-    expect(await hashShown(tab)).toBe(`${nativeHash(folder, scenario('three-targets'), 200, 'reset')} at tick 200`);
+    await playTo(tab, 12);
+    await seekTo(tab, 6);
+    await killByKeys(tab, 6);
+    await playTo(tab, 12);
+    await clickRobot(tab, 5);
+    expect((await factsShown(tab)).alive).toBe('yes');
+    await clickRobot(tab, 6);
+    expect((await factsShown(tab)).alive).toBe('no');
   });
 
-  it('is reset from what was done before its first tick', async () => {
-    const { tab } = await visit();
-    await seekTo(tab, 0);
-    await killByKeys(tab, 5);
-    await settle(tab);
+  it('obstacles are dragged, line of sight is switched, a target is added: a native run repeats it all', async () => {
+    const { tab, errors } = await visit();
     await tab.click('#tab-live');
-    await tab.click('button:text-is("Reset")');
-    await playTo(tab, 2);
-    expect(await tab.textContent('.caption')).not.toContain('dead');
-  });
-
-  it('shows loss and line of sight as they are at the moment that is shown', async () => {
-    const { tab } = await visit();
+    await tab.selectOption('#live-scenario', 'scattered-discs');
+    await tab.click('text=Start');
+    await tab.waitForFunction(() => document.title.startsWith('scattered-discs'));
     await playTo(tab, 3);
+    const obstacle = await placeOf(tab, 'obstacle', 0);
+    await dragTo(tab, obstacle, { x: obstacle.x + 40, y: obstacle.y + 25 });
+    const moved = await placeOf(tab, 'obstacle', 0);
     await tab.click('#tab-live');
-    expect(await lossShown(tab)).toBe(0);
-    await tab.focus('#live-loss');
-    await tab.keyboard.press('ArrowRight');
-    await tab.keyboard.press('ArrowRight');
-    const sight = await tab.isChecked('#live-sight');
     await tab.click('#live-sight');
     await settle(tab);
-    await tab.waitForTimeout(200); // a while in which nothing may spring back
-    expect(await lossShown(tab)).toBe(0.1);
-    expect(await tab.isChecked('#live-sight')).toBe(!sight);
-    const now = await timeShown(tab);
-    expect(now).toBeGreaterThan(3.05); // it went on to where it is seen
-    await seekTo(tab, 2);
-    expect(await lossShown(tab)).toBe(0);
-    expect(await tab.isChecked('#live-sight')).toBe(sight);
-    await seekTo(tab, now);
-    expect(await lossShown(tab)).toBe(0.1);
-    await tab.click('button:text-is("Reset")');
+    await tab.click('text=Add target');
+    const target = await placeOf(tab, 'target', 0);
+    await tab.mouse.click(target.x - 70, target.y + 45);
     await settle(tab);
-    await expect.poll(() => lossShown(tab)).toBe(0);
-  });
-
-  it('has its keys: 0 and Enter for robot 0, space for the clock after Start and after a click on a button', async () => {
-    const { tab } = await visit();
-    await tab.keyboard.press('0');
-    await tab.keyboard.press('Enter');
-    await expect.poll(() => tab.textContent('.robot-head h2')).toBe('Robot 0');
-    await tab.click('#tab-live');
-    await tab.fill('#live-seed', '7');
-    await tab.click('text=Start');
-    await tab.waitForFunction(() => document.querySelector('.what-runs')?.textContent?.includes('seed 7'));
-    await tab.waitForFunction(() => document.activeElement?.matches('button.play'));
-    expect(await isPlaying(tab)).toBe(true);
-    await tab.keyboard.press(' ');
-    await settle(tab);
-    expect(await isPlaying(tab)).toBe(false);
-    await tab.click('text=Blackout');
-    await settle(tab);
-    await tab.keyboard.press(' ');
-    await settle(tab);
-    expect(await isPlaying(tab)).toBe(true);
-    const text = readFileSync(await savedOfLive(tab, 'Save .toml', folder), 'utf8');
-    expect(text.split('kind = "blackout"')).toHaveLength(2); // one of it
-  });
-
-  it('says nothing of a run that is no longer there', async () => {
-    const { tab } = await visit();
-    await playTo(tab, 1);
-    await tab.evaluate(() => {
-      const { stages } = (window as unknown as { banyan: { stages: { source: { intervene(): Promise<void> } }[] } }).banyan;
-      stages[0].source.intervene = () => new Promise((_, reject) => { Object.assign(window, { failLate: () => reject(new Error('too late')) }); });
-    });
-    await killByKeys(tab, 5);
-    await tab.click('#tab-live');
-    await tab.fill('#live-seed', '9');
-    await tab.click('text=Start');
-    await tab.waitForFunction(() => document.querySelector('.what-runs')?.textContent?.includes('seed 9'));
-    await tab.evaluate(() => (window as unknown as { failLate(): void }).failLate());
-    await settle(tab);
-    expect(await tab.textContent('.stages')).not.toContain('too late');
+    await playTo(tab, 9);
+    await expect.poll(() => tab.textContent('.caption')).toContain('4 targets');
+    for (const words of ['obstacle 0', 'line of sight', 'T3']) await expectEvent(tab, words);
+    expect(moved).not.toBeNull();
+    const shown = await hashShown(tab);
+    const file = await savedOfLive(tab, 'Save .toml');
+    expect(readFileSync(file, 'utf8')).toContain('kind = "move_obstacle"');
+    expect(shown).toBe(`${nativeHash(file, 90, 'obstacles')} at tick 90`);
+    expect(errors).toEqual([]);
   });
 
   it('is saved as a recording that the program reads', async () => {
     const { tab } = await visit();
     await playTo(tab, 6);
-    const file = await savedOfLive(tab, 'Save .mcap', folder);
+    const file = await savedOfLive(tab, 'Save .mcap');
     const csv = banyan('export', file, '--csv');
     expect(csv.includes('\n50,5.0000,')).toBe(true);
-  });
-
-  it('two algorithms run side by side with the same seed and one clock', async () => {
-    const { tab, errors } = await visit();
-    await tab.click('#tab-live');
-    await tab.selectOption('#live-algorithm', 'outwards');
-    await tab.selectOption('#live-versus', 'inwards');
-    await tab.fill('#live-seed', '5');
-    await tab.click('text=Start');
-    await tab.waitForFunction(() => document.querySelectorAll('.stage').length === 2);
-    await playTo(tab, 3);
-    const captions = () => tab.$$eval('.caption', (all) => all.map((e) => e.textContent ?? '').join(' | '));
-    await expect.poll(captions).toMatch(/outwards.*\|.*inwards/);
-    expect(await timeShown(tab)).toBeCloseTo(3);
-    // One robot in both runs: what the page says of each is what its inspector says where it is clicked.
-    await tab.keyboard.type('3');
-    await tab.keyboard.press('Enter');
-    await expect.poll(() => tab.$$eval('.in-all thead th', (all) => all.map((e) => e.textContent))).toEqual(['outwards', 'inwards']);
-    const inAll = await tab.$$eval('.in-all tbody tr', (all) => all.map((row) => [...(row as HTMLTableRowElement).cells].map((cell) => cell.textContent ?? '')));
-    for (const run of [0, 1]) {
-      const at = await placeOf(tab, 'robot', 3, run);
-      await tab.mouse.click(at.x, at.y);
-      await expect.poll(() => tab.textContent('.run-inspector[open] > summary')).toBe(['outwards', 'inwards'][run]);
-      await settle(tab);
-      const facts = await factsShown(tab, '.run-inspector[open] .facts:not(.message)');
-      expect(Object.fromEntries(inAll.map((row) => [row[0], row[1 + run]]))).toEqual(facts);
-    }
-    await tab.click('#tab-live');
-    const names: string[] = [];
-    tab.on('download', (download) => names.push(download.suggestedFilename()));
-    await tab.click('text=Save .toml');
-    await expect.poll(() => names.sort()).toEqual(['three-targets-inwards.toml', 'three-targets-outwards.toml']);
-    expect(errors).toEqual([]);
   });
 
   it('says in words what is wrong with a scenario, and stays usable', async () => {
@@ -226,5 +138,35 @@ describe('a live run', () => {
     await tab.waitForFunction(() => document.querySelector('.what-runs')?.textContent?.includes('seed 77'));
     await playTo(tab, 2);
     expect(await timeShown(tab)).toBeCloseTo(2);
+  });
+
+  it('a recording stands beside a live run: one clock, an inspector each, and only one can be interfered with', async () => {
+    const file = folder.record('other', scenario('three-targets'), '--seed', '4', '--set', 'mission.algorithm=outwards', '--set', 'swarm.redundancy=4', '--force');
+    const { tab, errors } = await visit();
+    await addFile(tab, file);
+    await waitForRuns(tab, 2);
+    await seekTo(tab, 4);
+    await expect.poll(() => captions(tab)).toEqual([expect.stringMatching(/^convoy · 18 robots/), expect.stringMatching(/^outwards · 24 robots/)]);
+    // Robot 3 as the program knows it, of the recording; and as a run alone has it, of the live one.
+    await tab.keyboard.type('3');
+    await tab.keyboard.press('Enter');
+    await openInspectors(tab);
+    await settle(tab);
+    const row = banyan('export', file, '--from', '3.95', '--to', '4.05').split('\n').map((line) => line.split(','));
+    const column = (name: string) => Number(row.find((cells) => cells[row[0].indexOf('robot')] === '3')![row[0].indexOf(name)]);
+    const [x, y] = (await factsShown(tab, '.run-inspector:nth-of-type(2) .facts:not(.message)')).position.split(',').map(Number.parseFloat);
+    expect([x, y]).toEqual([expect.closeTo(column('x_m'), 3), expect.closeTo(column('y_m'), 3)]);
+    await expect.poll(() => tab.$$eval('.facts.message', (all) => all.map((e) => (e as HTMLTableElement).rows.length > 5))).toEqual([true, true]);
+    expect(await tab.$$eval('.run-inspector .danger', (all) => all.map((e) => (e as HTMLElement).hidden))).toEqual([false, true]);
+    await tab.keyboard.press('Delete');
+    await settle(tab);
+    await expect.poll(() => captions(tab)).toEqual([expect.stringContaining('1 dead'), expect.not.stringContaining('dead')]);
+    await expectEvent(tab, 'died');
+    await tab.click('text=Copy link');
+    await expect.poll(() => tab.textContent('.notice')).toContain('no address');
+    await tab.click('.stage[data-run="1"] .close-run');
+    expect(await tab.$$('.stage')).toHaveLength(1);
+    await expect.poll(() => captions(tab)).toEqual([expect.stringMatching(/^outwards/)]);
+    expect(errors).toEqual([]);
   });
 });

@@ -13,7 +13,7 @@ export async function waitForRun(tab: Page): Promise<void> {
 interface PageInside {
   player: { timeS: number; waiting: boolean };
   stages: { shown: { timeS: number } | null }[];
-  place(kind: string, index: number, stage: number): { x: number; y: number };
+  place(kind: string, index: number): { x: number; y: number };
 }
 
 const calmFrames = 3; // what was done has been drawn, and what that led to
@@ -53,12 +53,11 @@ export async function seekTo(tab: Page, timeS: number): Promise<void> {
 }
 
 /** Where robots and targets are on the screen: the page tells tests what it has drawn. */
-export async function placeOf(tab: Page, kind: 'robot' | 'target' | 'obstacle', index: number, stage = 0): Promise<{ x: number; y: number }> {
-  const place = await tab.evaluate(([k, i, s]) => {
+export async function placeOf(tab: Page, kind: 'robot' | 'target' | 'obstacle', index: number): Promise<{ x: number; y: number }> {
+  return await tab.evaluate(([k, i]) => {
     const { banyan } = window as unknown as { banyan: PageInside };
-    return banyan.place(k as string, i as number, s as number);
-  }, [kind, index, stage] as const);
-  return place;
+    return banyan.place(k, i);
+  }, [kind, index] as const);
 }
 
 export async function clickRobot(tab: Page, robot: number): Promise<void> {
@@ -73,8 +72,6 @@ export async function factsShown(tab: Page, table = '.facts:not(.message):not(.b
   return await tab.$eval(`.inspectors ${table}`, (element) =>
     Object.fromEntries([...(element as HTMLTableElement).rows].map((row) => [row.cells[0].textContent ?? '', row.cells[1].textContent ?? ''])));
 }
-
-export const plotValues = (tab: Page) => tab.$$eval('.plot-value', (elements) => elements.map((e) => e.textContent ?? ''));
 
 /** Expects that the list of events has one with these words; it shows only those in view, so it is filtered. */
 export async function expectEvent(tab: Page, words: string): Promise<void> {
