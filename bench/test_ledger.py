@@ -85,6 +85,8 @@ def test_missions_have_names_of_their_own_and_quick_ones_are_among_them():
     for one in LEDGER.classes:
         names = [name for part in one.parts for name, _ in missions.of_part(one, part)]
         assert len(set(names)) == len(names), one.name
+        axes = [len(part['axes']) for part in one.parts]
+        assert {name.count(', ') + 1 for name in names} == set(axes), f'{one.name}: a label has a comma'
         assert one.primary in verdict.COLUMNS
         whole, quick = ({(part['name'], label) for part in missions.study_of([one], ['work'], quick=q)['parts'] for label in part['axes'][0]['labels']}
                         for q in (False, True))
