@@ -60,7 +60,7 @@ COLUMNS = {column.name: column for column in [
            lambda r: math.nan if has_deaths(r) else number(r['replacements']), 'number'),
     Column('bytes', 'bytes', 'bytes per robot and second', lambda r: number(r['bytes_per_robot_s']), 'ratio'),
     Column('recovery', 'rec s', 'time of recovery in seconds; without, 200 s',
-           lambda r: number(r['recovery_time_s'], 200.0) + 1.0 if has_deaths(r) else math.nan, 'ratio', -1, False),
+           lambda r: max(number(r['recovery_time_s'], 200.0), 0.1) if has_deaths(r) else math.nan, 'ratio', -1, False),
     Column('split_time', 'split t', 'ticks out of one piece', share_of_ticks('split_ticks'), 'share', -1, False),
     Column('redundant', '2 paths', 'time with two disjoint paths', lambda r: number(r['redundant_time_ratio'], 0.0), 'share', +1, False),
     Column('severed', 'severed', 'missions in which workers or root were cut off', happened('severed_ticks'), 'share', -1, False),
