@@ -27,7 +27,7 @@ class PyWorld {
     if (measured) observer_.emplace(world);
   }
   // As the other is now. It is not measured, since measures are about a run from its start.
-  explicit PyWorld(const PyWorld& other)
+  explicit PyWorld(const PyWorld& other)  // NOLINT(google-explicit-constructor): only where a copy is asked for
       : algorithms_(other.algorithms_),
         configuration_(other.configuration_),
         world(other.idle()),
