@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The arena (docs/arena.md) has every algorithm on the list, as it is and tuned, each can be run there, and each has
-// its rows on the page.
+// The arena (docs/arena.md) has every algorithm on the list, as it is and tuned, and each can be run there.
 #include <gtest/gtest.h>
 
 #include <algorithm>
