@@ -26,7 +26,7 @@ class Failed(Exception):
 class Class:
     name: str
     about: str
-    kind: str
+    kind: str     # core or edge, for readers
     primary: str
     tolerance: float
     quick: int
@@ -47,7 +47,7 @@ class Ledger:
         known = {one.name: one for one in self.classes}
         for name in names:
             if name not in known:
-                raise KeyError(f'there is no class "{name}"; the classes are {", ".join(known)}')
+                raise Failed(f'there is no class "{name}"; the classes are {", ".join(known)}')
         return [one for one in self.classes if (not names or one.name in names) and (own_algorithms or not one.algorithms)]
 
 
@@ -96,13 +96,13 @@ def spread(items, count):
     return [items[n * stride + n % stride] for n in range(count)]
 
 
-def study_of(classes, sets, quick=False, seeds=1.0, algorithm=None):
+def study_of(classes, sets, quick=False, seeds=1, algorithm=None):
     """A study for `banyan study`: a part for each part of a class and set, whose one axis lists its missions."""
     parts = []
     for one, which in itertools.product(classes, sets):
         for n, part in enumerate(one.parts):
             listed = list(of_part(one, part))
-            count = max(1, round(part['seeds'] * seeds))
+            count = part['seeds'] * seeds
             if quick:
                 wanted = -(-one.quick // len(one.parts))
                 count = min(count, -(-wanted // len(listed)))
@@ -112,10 +112,8 @@ def study_of(classes, sets, quick=False, seeds=1.0, algorithm=None):
             keys = sorted({key for _, settings in listed for key in settings})
             first = one.first_seed[which]
             changes = dict(part.get('set', {}))
-            if algorithm and not one.algorithms:
-                changes['mission.algorithm'] = algorithm
-            elif not one.algorithms:
-                changes['mission.algorithm'] = 'convoy'
+            if not one.algorithms:
+                changes['mission.algorithm'] = algorithm or 'convoy'
             parts.append({
                 'name': f'{one.name}-{n}-{which}', 'scenario': str(one.house / part['scenario']), 'set': changes,
                 'seeds': f'{first}-{first + count - 1}',
@@ -126,11 +124,11 @@ def study_of(classes, sets, quick=False, seeds=1.0, algorithm=None):
     return {'name': 'ledger', 'figures': [], 'statistics': {'metrics': ['complete'], 'compare': 'ledger', 'resamples': 100}, 'parts': parts}
 
 
-def play(classes, program, out, sets, quick=False, seeds=1.0, algorithm=None):
+def play(classes, program, out, sets, quick=False, seeds=1, algorithm=None):
     """Plays the missions with a program in the folder `out`; the rows."""
     study = study_of(classes, sets, quick, seeds, algorithm)
     if not study['parts']:
-        raise Failed('no class that was asked for has missions here (--quick leaves the large ones out)')
+        raise Failed('no class that was asked for has missions here: --quick leaves the large ones out, and some name their own algorithms')
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)
     file = out / 'ledger.json'
@@ -146,6 +144,8 @@ def read(table):
     rows = {}
     with open(table, newline='') as file:
         for row in csv.DictReader(file):
+            if lacking := [column for column in KEPT if column not in row]:
+                raise Failed(f'{table} has no column "{lacking[0]}": the program is too old for this ledger')
             if row['error']:
                 raise Failed(f'{table}: {row["mission"]}, seed {row["seed"]}: {row["error"]}')
             name, _, which = row['part'].rsplit('-', 2)

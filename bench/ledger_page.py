@@ -115,7 +115,7 @@ def markdown(judged, cost, against, words, detail=False, by=()):
 
 def figure(judged, words, file):
     """One line a class: the difference of its primary column with the 95 % interval; grey: what the tolerance allows."""
-    shown = [one for one in judged if one.words and one.primary.scale != 'number']
+    shown = [one for one in judged if one.words]
     data, allowed = [], []
     for n, one in enumerate(reversed(shown)):
         d, worse = one.columns[one.primary.name], -one.primary.more

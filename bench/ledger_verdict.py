@@ -79,6 +79,7 @@ class Difference:
     error: float = math.nan  # its standard error
     low: float = math.nan    # 95 % interval
     high: float = math.nan
+    lost: int = 0            # missions that have a value in the baseline only
 
 
 def t_quantile(degrees):
@@ -92,13 +93,17 @@ def t_quantile(degrees):
 
 
 def differ(column, pairs):
-    """The difference over pairs (now, baseline) of rows; those without a value on either side do not count."""
+    """The difference over pairs (now, baseline) of rows; None where no row has a value. A mission that has one on one side
+    only, as when it is never complete and so has no deaths, counts as the worst there in a share; else it is `lost`."""
+    worst = (0.0 if column.more > 0 else 1.0) if column.scale == 'share' else math.nan
     both = [(column.value(now), column.value(base)) for now, base in pairs]
-    both = [(a, b) for a, b in both if not (math.isnan(a) or math.isnan(b))]
+    both = [tuple(worst if math.isnan(value) else value for value in pair) for pair in both if not all(map(math.isnan, pair))]
+    lost = sum(math.isnan(a) for a, _ in both)
+    both = [pair for pair in both if not any(map(math.isnan, pair))]
     if not both:
-        return None
+        return Difference(math.nan, math.nan, 0, lost=lost) if lost else None
     now, base = (statistics.fmean(side) for side in zip(*both, strict=True))
-    result = Difference(now, base, len(both))
+    result = Difference(now, base, len(both), lost=lost)
     each = [math.log(max(a, 1e-9) / max(b, 1e-9)) if column.scale == 'ratio' else a - b for a, b in both]
     result.mean = statistics.fmean(each)
     if len(each) > 1:
@@ -114,7 +119,6 @@ def differ(column, pairs):
 class Judged:
     name: str
     about: str
-    kind: str
     primary: Column
     tolerance: float
     missions: list  # (name, row)
@@ -147,7 +151,7 @@ def signed(column, difference):
 def judge(one, rows, base):
     """A class judged by its primary column: better, not worse, undecided, worse; or new, without a baseline."""
     keys = [key for key in rows if key[1] == one.name]
-    judged = Judged(one.name, one.about, one.kind, COLUMNS[one.primary], one.tolerance, [(key[2], rows[key]) for key in keys])
+    judged = Judged(one.name, one.about, COLUMNS[one.primary], one.tolerance, [(key[2], rows[key]) for key in keys])
     pairs = [(rows[key], base[key]) for key in keys if key in base]
     for name, column in COLUMNS.items():
         judged.columns[name] = differ(column, pairs) if pairs else alone(column, judged.rows)
@@ -163,6 +167,8 @@ def alone(column, rows):
 
 def verdict_of(judged):
     d = judged.columns[judged.primary.name]
+    if d is not None and d.lost > judged.tolerance * (d.pairs + d.lost):
+        return 'worse'
     if d is None or math.isnan(d.error):
         return 'undecided'
     # As "how much worse": the interval's ends, and the tolerance on the same scale.

@@ -76,6 +76,15 @@ def test_more_is_better_where_it_is():
     assert judged('deaths', every, none).verdict == 'better'
 
 
+def test_missions_that_lose_what_is_judged_count_against():
+    base = rows('deaths', deaths=lambda n: 3, recovered=lambda n: 'true')
+    half = rows('deaths', deaths=lambda n: 3 * (n % 2), recovered=lambda n: 'true' if n % 2 else 'false', complete=lambda n: 'true' if n % 2 else 'false')
+    assert judged('deaths', half, base).columns['recovered'].now == 0.5
+    assert judged('deaths', half, base).verdict == 'worse'
+    assert judged('robots', rows('robots', complete=lambda n: 'true' if n % 2 else 'false'), rows('robots')).verdict == 'worse'
+    assert judged('robots', rows('robots', complete=lambda n: 'false'), rows('robots')).verdict == 'worse'
+
+
 def test_false_replacements_are_those_without_deaths():
     one = judged('deaths', rows('deaths', 2, deaths=lambda n: n, replacements=lambda n: 4 - n), {})
     assert one.columns['false'].now == 4.0
@@ -157,6 +166,8 @@ def test_two_algorithms_of_the_program_are_compared(ledger, tmp_path):
 def test_what_cannot_be_is_said(ledger):
     assert 'the classes are worlds, compact' in ledger('world').stderr
     assert '"no-such-thing" is neither a commit nor a baseline' in ledger('--against', 'no-such-thing', '--quick', 'batteries').stderr
+    assert 'the classes are worlds' in ledger('--renew', '--accept', 'world', 'because').stderr
+    assert '--by needs the names of classes' in ledger('--by', 'who').stderr
     assert ledger('--seeds', '3').returncode == ledger('--accept', 'worlds', 'because').returncode == 2
 
 

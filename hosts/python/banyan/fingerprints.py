@@ -27,7 +27,11 @@ def fingerprint(controller: Any, like: Any) -> str:
     """16 hexadecimal digits, the same in every process of one version of Python. `controller` as users hand it over,
     `like`: what it makes, if it is a function."""
     kind = like if isinstance(like, type) else type(like)
-    return _Reader(kind.__module__.partition(".")[0]).whole((controller, like))[:16]
+    try:
+        return _Reader(kind.__module__.partition(".")[0]).whole((controller, like))[:16]
+    except RecursionError:
+        raise ValueError(f"{kind.__qualname__} cannot be told from its other versions: it holds tuples or sets that are "
+                         "nested too deeply, or a set that contains itself; keep such data outside of it") from None
 
 
 class _Reader:
