@@ -114,27 +114,31 @@ def markdown(judged, cost, against, words, detail=False, by=()):
 
 
 def figure(judged, words, file):
-    """One line a class: the difference of its primary column with the 95 % interval; grey: what the tolerance allows."""
-    shown = [one for one in judged if one.words]
-    data, allowed = [], []
-    for n, one in enumerate(reversed(shown)):
-        d, worse = one.columns[one.primary.name], -one.primary.more
-        ends = [worse * percent(one.primary, value) for value in (d.mean, d.low, d.high)]
-        kind = {'worse': 1, 'better': 2}.get(one.verdict, 3)
-        data.append(f'{ends[0]} {n} {min(ends[1:])} {max(ends[1:])} {kind}')
-        allowed.append(f'set object rect from graph 0, first {n - 0.4} to first {100 * one.tolerance}, first {n + 0.4} '
+    """One line a class: the difference of its primary column with the 95 % interval; grey: what the tolerance allows.
+    What lies beyond the axis stands at its end, with its number."""
+    shown = [one for one in reversed(judged) if one.words]
+    ends = [[-one.primary.more * percent(one.primary, value) for value in (d.mean, d.low, d.high)]
+            for one in shown for d in [one.columns[one.primary.name]]]
+    reach = min(40.0, max(5.0, *(1.15 * abs(value) for line in ends for value in line)))
+    clip = lambda value: max(-reach, min(reach, value))  # noqa: E731
+    objects, data = [], []
+    for n, (one, (mean, low, high)) in enumerate(zip(shown, ends, strict=True)):
+        objects.append(f'set object rect from graph 0, first {n - 0.4} to first {clip(100 * one.tolerance)}, first {n + 0.4} '
                        'fillcolor rgb "#dddddd" fillstyle solid noborder behind')
-    tics = ', '.join(f'"{one.name}: {one.primary.name}" {n}' for n, one in enumerate(reversed(shown)))
-    reach = max([2.0] + [abs(float(value)) for line in data for value in line.split()[2:4] if math.isfinite(float(value))]) * 1.1
-    script = f'''set terminal svg size 700,{60 + 22 * len(shown)} font "sans-serif,11" background "white"
+        if abs(mean) > reach:
+            objects.append(f'set label "{mean:+.0f} " at {0.97 * clip(mean)}, {n} {"right" if mean > 0 else "left"} offset 0, 0.1 font ",9"')
+        data.append(f'{clip(mean)} {n} {clip(min(low, high))} {clip(max(low, high))} { {"worse": 1, "better": 2}.get(one.verdict, 3)}')
+    names = [one.name if one.name == one.primary.name else f'{one.name}: {one.primary.name.replace("_", " ")}' for one in shown]
+    tics = ', '.join(f'"{name}" {n}' for n, name in enumerate(names))
+    script = f'''set terminal svg size 700,{90 + 20 * len(shown)} font "sans-serif,11" background "white"
 set output "{file}"
 set title "{words}" font ",12"
-set xrange [{-min(reach, 40)}:{min(reach, 40)}]; set yrange [-0.7:{len(shown) - 0.3}]
+set xrange [{-reach}:{reach}]; set yrange [-0.7:{len(shown) - 0.3}]
 set ytics ({tics}) nomirror scale 0; set xtics nomirror; set border 1; unset key
 set xlabel "better   <   difference: shares in points, time and robots in %   >   worse"
 set arrow from 0, graph 0 to 0, graph 1 nohead lc rgb "#888888"
 set linetype 1 lc rgb "#c0392b"; set linetype 2 lc rgb "#1e8449"; set linetype 3 lc rgb "#222222"
-{chr(10).join(allowed)}
+{chr(10).join(objects)}
 plot "-" using 1:2:3:4:5 with xerrorbars pt 7 ps 0.5 lw 1.5 lc variable
 {chr(10).join(data)}
 e

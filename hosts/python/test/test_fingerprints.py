@@ -256,3 +256,16 @@ def test_modules_beside_it_count_and_installed_ones_do_not(tmp_path, monkeypatch
         """
         prints.append(fingerprint(made(source)))
     assert prints[0] != prints[1] and prints[0] == prints[2]
+
+
+def test_what_is_nested_too_deeply_is_refused_in_words():
+    class Deep(banyan.Policy):
+        data = ()
+
+        def step(self, observation):
+            return banyan.Action()
+
+    for _ in range(3000):
+        Deep.data = (Deep.data,)
+    with pytest.raises(ValueError, match="Deep cannot be told from its other versions"):
+        importlib.import_module("banyan.fingerprints").fingerprint(Deep, Deep)
