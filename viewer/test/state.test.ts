@@ -81,7 +81,7 @@ describe('interpolation', () => {
 
 describe('jumps', () => {
   const event = (time_s: number, kind: string): RunEvent => ({ tick: Math.round(10 * time_s), time_s, kind, robot: 0, target: -1, text: kind });
-  const events = [event(0.5, 'phase'), event(0.7, 'recruited'), event(1, 'inserted'), event(2, 'phase'), event(3, 'death'), event(9, 'complete')];
+  const events = [event(0.5, 'phase'), event(1, 'recruited'), event(1, 'inserted'), event(2, 'phase'), event(3, 'death'), event(9, 'complete')];
 
   it('stop at what is notable, once for each moment', () => {
     expect(eventAfter(events, 0, 1)?.time_s).toBe(1);
