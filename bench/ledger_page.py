@@ -67,7 +67,7 @@ def differences(one):
     yield [one.name, 'now', 'baseline', 'difference', 'std. error', 'pairs', 'what it is']
     for name, column in COLUMNS.items():
         d = one.columns.get(name)
-        if d is None:
+        if d is None or not (column.on_page or name == one.primary.name or d.now or d.base):
             continue
         compared = not math.isnan(d.mean)
         yield [name, written(column, d.now), written(column, d.base), signed(column, d.mean) if compared else '',
@@ -126,7 +126,7 @@ def figure(judged, words, file):
         objects.append(f'set object rect from graph 0, first {n - 0.4} to first {clip(100 * one.tolerance)}, first {n + 0.4} '
                        'fillcolor rgb "#dddddd" fillstyle solid noborder behind')
         if abs(mean) > reach:
-            objects.append(f'set label "{mean:+.0f} " at {0.97 * clip(mean)}, {n} {"right" if mean > 0 else "left"} offset 0, 0.1 font ",9"')
+            objects.append(f'set label "{mean:+.0f} " at {0.97 * clip(mean)}, {n} {"right" if mean > 0 else "left"} offset 0, 0.55 font ",9"')
         data.append(f'{clip(mean)} {n} {clip(min(low, high))} {clip(max(low, high))} { {"worse": 1, "better": 2}.get(one.verdict, 3)}')
     names = [one.name if one.name == one.primary.name else f'{one.name}: {one.primary.name.replace("_", " ")}' for one in shown]
     tics = ', '.join(f'"{name}" {n}' for n, name in enumerate(names))
