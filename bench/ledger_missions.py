@@ -9,7 +9,7 @@ import json
 import shutil
 import subprocess
 import tomllib
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 # Columns of the table of runs that the ledger's own are made of (docs/file-formats.md).
@@ -40,7 +40,7 @@ class Class:
 class Ledger:
     classes: list
     cost: list
-    house: Path = field(default_factory=Path)
+    house: Path
 
     def chosen(self, names, own_algorithms):
         """The classes of these names, or all; without own_algorithms those only in which the algorithm can be chosen."""
