@@ -17,10 +17,10 @@ bool all_workers_counted(const TreeRobot& robot) noexcept {
 void select_inner_parent(TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   const auto is_safe = [&](int k) {
-    return robot.reading.prefers_safe_parent && table.range(k) <= robot.params.safe_range_m;
+    return robot.reading.prefers_safe_parent && table.range(k) <= robot.params.safe_range;
   };
   const auto is_better = [&](int a, int b) {
-    return is_safe(a) != is_safe(b) ? is_safe(a) : table.message(a).label_cm < table.message(b).label_cm;
+    return is_safe(a) != is_safe(b) ? is_safe(a) : table.message(a).label < table.message(b).label;
   };
   select_parent(robot, {.may_join = may_join_inwards(robot),
                         .workers_relay = false,
@@ -34,15 +34,15 @@ constexpr Growth inwards_growth{.all_counted = all_workers_counted, .select_pare
 
 HealingParams inwards_defaults() noexcept {
   HealingParams p;
-  p.safe_range_m = 1.3525581F;
-  p.avoidance_range_m = 0.4099F;
-  p.ideal_distance_m = 1.540841F;
-  p.interaction_gain = 10.0F;
+  p.safe_range = 0.67627905F;
+  p.avoidance_range = 0.20495F;
+  p.ideal_distance = 0.7704205F;
+  p.interaction_gain = 0.05F;
   p.target_gain = 0.2539F;
-  p.reconfiguration_period_s = 44.0F;
-  p.liveness_period_s = 0.5F;
-  p.recruitment_distance_m = 1.321353F;
-  p.insertion_distance_m = 0.066395F;
+  p.reconfiguration_drives = 4.4F;
+  p.liveness_rounds = 5.0F;
+  p.recruitment_distance = 0.6606765F;
+  p.insertion_distance = 0.0331975F;
   return p;
 }
 

@@ -28,7 +28,7 @@ Output<TreeMessage> literal_step(const Growth& growth, const TreeParams& params,
   advance(robot, growth.all_counted(robot));      // the root's barriers
   update_label(robot);                            // Start Tree
   growth.select_parent(robot);                    // Select Parent, repair
-  take_census(robot, params.arrival_distance_m);  // Alg. 1 and 2
+  take_census(robot, params.arrival_distance);  // Alg. 1 and 2
   select_root(robot, [](int) { return true; });   // Select Root, the root's side
   manage_spares(robot, {.needs_spare = [&] { return is_stretched(robot) || child_in_need(robot); },  // Grow Tree
                         .may_call = [] { return false; },
@@ -39,7 +39,7 @@ Output<TreeMessage> literal_step(const Growth& growth, const TreeParams& params,
   Output<TreeMessage> output;
   write_tree(robot, output.message);
   Guard none;
-  output.velocity = drive(allowed(u, none, params), none, params);
+  output.motion = drive(allowed(u, none, params), none, params);
   return output;
 }
 
@@ -60,7 +60,7 @@ Output<HealingMessage> corrected_step(const Growth& growth, const HealingParams&
   advance_and_count(robot, growth.all_counted(robot));  // the root's barriers
   update_label(robot);                                  // Start Tree
   growth.select_parent(robot);                          // Select Parent, repair
-  take_census(robot, params.arrival_distance_m, own_want_m(robot));
+  take_census(robot, params.arrival_distance, own_want(robot));
   select_root(robot, [](int) { return true; });  // Select Root, the root's side
   find_hold(robot);                              // what ties me to the others while I have no parent
   manage_spares(robot, {.needs_spare = [&] { return is_stretched(robot) || child_in_need(robot); },  // Grow Tree
@@ -80,7 +80,7 @@ Output<HealingMessage> corrected_step(const Growth& growth, const HealingParams&
   write_healing(robot, output.message);
   const Vec2 v = allowed(u, guard, params);
   watch_progress(robot, retreats, v);  // does the worker make progress?
-  output.velocity = drive(v, guard, params);
+  output.motion = drive(v, guard, params);
   return output;
 }
 

@@ -30,7 +30,7 @@ constexpr int silence_ticks = 2;      // a parent silent for so long counts as h
 constexpr float asks_sooner = 2.0F;   // times the spread of ranges: so much earlier an edge asks for spares and calls
 constexpr float tight = 0.6F;         // of `clearance`: enough for a spare in the way, since joining the edge clears it
 constexpr float rests_within = 0.4F;  // of the tolerance: a worker so near to its target need not come nearer
-constexpr float late = 2.0F;          // times `call_after_s`: until then an edge that is towed late may shorten
+constexpr float late = 2.0F;          // times `call_after_rounds`: until then an edge that is towed late may shorten
 
 // ---- Select Parent: branches grow from the workers, as in inwards, by short edges in sight (rule 1) ----
 
@@ -57,20 +57,19 @@ struct Preference {
   float key;
   Preference(const ConvoyRobot& robot, int k) noexcept {
     const ConvoyParams& p = robot.params;
-    const float c = p.communication_range_m;
-    if (prunes(p) && robot.self.want_m == 0.0F && was_edge(robot, k)) {
+    if (prunes(p) && robot.self.want == 0.0F && was_edge(robot, k)) {
       rank = -1;
-      key = static_cast<float>(robot.table().message(k).label_cm);
+      key = static_cast<float>(robot.table().message(k).label);
       return;
     }
-    float range_m = robot.table().range(k);
-    if (!sees_clearly(robot, k, p.clearance_m))
-      range_m += sees_clearly(robot, k, narrow * p.clearance_m) ? costs_risk * c : costs_blocked * c;
-    if (is_leaving(robot, k)) range_m += costs_leaving * c;
-    if (is_drained_spare(robot, k)) range_m += costs_drained * c;
-    if (robot.table().message(k).role == Role::worker) range_m += c;  // rather a robot that is not leaving
-    rank = range_m <= p.first_edge_m ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
-    key = rank < 2 ? static_cast<float>(robot.table().message(k).label_cm) : range_m;
+    float range = robot.table().range(k);
+    if (!sees_clearly(robot, k, p.clearance))
+      range += sees_clearly(robot, k, narrow * p.clearance) ? costs_risk : costs_blocked;
+    if (is_leaving(robot, k)) range += costs_leaving;
+    if (is_drained_spare(robot, k)) range += costs_drained;
+    if (robot.table().message(k).role == Role::worker) range += 1.0F;  // rather a robot that is not leaving
+    rank = range <= p.first_edge ? 0 : range <= p.recruitment_distance ? 1 : 2;
+    key = rank < 2 ? static_cast<float>(robot.table().message(k).label) : range;
   }
 };
 
@@ -84,10 +83,10 @@ bool is_better_parent(const ConvoyRobot& robot, int a, int b) noexcept {
 
 // My parent is a worker, which cannot be towed, and my target is out of reach from where it goes.
 bool is_anchored(const ConvoyRobot& robot) noexcept {
-  if (robot.table().message(robot.parent).role != Role::worker || robot.self.want_m == 0.0F) return false;
+  if (robot.table().message(robot.parent).role != Role::worker || robot.self.want == 0.0F) return false;
   if (robot.target != nullptr) return !reaches_target_from(robot, robot.parent);
   return stands_at_target(robot, robot.parent) &&
-         robot.self.want_m > robot.params.ideal_distance_m - robot.table().range(robot.parent);
+         robot.self.want > robot.params.ideal_distance - robot.table().range(robot.parent);
 }
 
 // The root and junctions are towed late (towing.cpp), so their edges may stay just short of call_distance and slow.
@@ -95,8 +94,8 @@ bool is_held_by_junction(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const bool junction =
       robot.table().message(robot.parent).role == Role::root || robot.convoy_of(robot.parent).child_count > 1;
-  return junction && robot.table().range(robot.parent) > p.recruitment_distance_m &&
-         robot.self.unserved_ticks > p.ticks(late * p.call_after_s);
+  return junction && robot.table().range(robot.parent) > p.recruitment_distance &&
+         robot.self.unserved_ticks > whole(late * p.call_after_rounds);
 }
 
 // On batteries: my edge wants a spare that takes my place, or one that gives slack to a relief.
@@ -113,9 +112,9 @@ bool needs_spare(const ConvoyRobot& robot) noexcept {
   // A connector may have been made a worker: then it is the parent that has to go on.
   const TreeStanding& parent = robot.table().message(robot.parent);
   const bool wanted =
-      robot.self.want_m > 0.0F || is_held_back(robot) || (parent.role == Role::worker && parent.want_cm > 0);
-  return (d > robot.params.recruitment_distance_m - asks_sooner * robot.table().spread_m() && wanted) ||
-         ((hidden || robot.self.corners.pinned || is_anchored(robot)) && d > robot.params.shortest_split_m);
+      robot.self.want > 0.0F || is_held_back(robot) || (parent.role == Role::worker && parent.want > 0);
+  return (d > robot.params.recruitment_distance - asks_sooner * robot.table().spread() && wanted) ||
+         ((hidden || robot.self.corners.pinned || is_anchored(robot)) && d > robot.params.shortest_split);
 }
 
 // Only when the edge is about to hold the workers back; among obstacles sooner, since spares are slow there.
@@ -123,26 +122,26 @@ bool may_call(const ConvoyRobot& robot) noexcept {
   if (asks_for_relief(robot)) return true;
   if (is_planned(robot.self)) return false;  // spares would come along the chains and be in the way
   const ConvoyParams& p = robot.params;
-  const float from_m = robot.self.corners.landmarks.size > 0 ? p.recruitment_distance_m : p.call_distance_m;
+  const float from = robot.self.corners.landmarks.size > 0 ? p.recruitment_distance : p.call_distance;
   if (robot.parent < 0) return false;
   if (wants_fold(robot) && robot.table().age(robot.parent) <= silence_ticks) return false;  // keep_company() does
   return robot.self.corners.pinned || is_anchored(robot) || is_held_by_junction(robot) ||
-         robot.table().range(robot.parent) > from_m - asks_sooner * robot.table().spread_m();
+         robot.table().range(robot.parent) > from - asks_sooner * robot.table().spread();
 }
 
 bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
-  const float reach_m = p.ideal_distance_m - p.join_margin_m;
-  const float clearance_m = p.clearance_m;
+  const float reach = p.ideal_distance - p.join_margin;
+  const float clearance = p.clearance;
   if (is_leaving(robot, owner))
-    return may_relieve(*robot.power, owner, parent, [&](int k) { return sees_clearly(robot, k, tight * clearance_m); });
-  if (table.range(owner) >= reach_m || table.range(parent) >= reach_m || !robot.is_sure(parent) ||
+    return may_relieve(*robot.power, owner, parent, [&](int k) { return sees_clearly(robot, k, tight * clearance); });
+  if (table.range(owner) >= reach || table.range(parent) >= reach || !robot.is_sure(parent) ||
       robot.may_be_deaf(parent) || is_off_middle(robot, owner, parent))
     return false;
-  const bool in_the_way = distance_to_segment(Vec2{}, table.position(owner), table.position(parent)) < clearance_m;
-  const float room_m = in_the_way ? tight * clearance_m : clearance_m;
-  return sees_clearly(robot, owner, room_m) && sees_clearly(robot, parent, room_m);
+  const bool in_the_way = distance_to_segment(Vec2{}, table.position(owner), table.position(parent)) < clearance;
+  const float room = in_the_way ? tight * clearance : clearance;
+  return sees_clearly(robot, owner, room) && sees_clearly(robot, parent, room);
 }
 
 // Not while the workers make progress: the tree is repaired meanwhile, and a new one has its cost. And later while
@@ -152,24 +151,23 @@ bool may_reconstruct(const ConvoyRobot& robot) noexcept {
   if (is_leaving(robot) && !is_planned(robot.self)) return true;
   // Companions would have to change places. While branches change their parents, a root may have no worker for a tick.
   if (has_companions(robot.params) && (has_arrived(robot) || has_settled(robot))) return false;
-  constexpr float patience_s = 5.0F;
-  constexpr float called_patience_s = 15.0F;
+  constexpr float patience_drives = 0.5F;
+  constexpr float called_patience_drives = 1.5F;
   const bool called = robot.self.call_hops != nobody_calls;
   const bool begun = is_planned(robot.self) || robot.self.plan_steps < robot.self.plan_levels;
-  return robot.self.stalled_ticks > robot.params.ticks(called ? called_patience_s : patience_s) && !begun;
+  return robot.self.stalled_ticks > robot.params.rounds(called ? called_patience_drives : patience_drives) && !begun;
 }
 
 // Edges of a tree that has arrived are nearly as long as they may be, and the flood takes short cuts over longer links.
 // So a robot of the last tree waits for a label over a link that may be an edge; else it would find no parent, while
 // robots that were above it take it for theirs.
 LabelRule label_rule(const ConvoyRobot& robot) noexcept {
-  constexpr float edge_wait_s = 3.0F;
+  constexpr int edge_wait_ticks = 30;
   const ConvoyState& self = robot.self;
-  const ConvoyParams& p = robot.params;
   LabelRule rule{.waits_for_anybody = false};
   const bool is_member = self.old_parent != nobody || robot.useful_children > 0;
-  if (has_arrived(robot) && is_member && self.phase_ticks < p.ticks(edge_wait_s))
-    rule.reach_m = longest_link * p.communication_range_m;
+  if (has_arrived(robot) && is_member && self.phase_ticks < edge_wait_ticks)
+    rule.reach = longest_link;
   return rule;
 }
 
@@ -177,7 +175,7 @@ LabelRule label_rule(const ConvoyRobot& robot) noexcept {
 bool may_inherit(const ConvoyRobot& robot, int k) noexcept {
   if (robot.power != nullptr && !may_inherit_root(*robot.power, k)) return false;
   if (is_leaving(robot)) return true;
-  return !prunes(robot.params) || robot.self.want_m > 0.0F || robot.table().message(k).role != Role::spare;
+  return !prunes(robot.params) || robot.self.want > 0.0F || robot.table().message(k).role != Role::spare;
 }
 
 // ---- The start and the end of a tick ----
@@ -200,7 +198,7 @@ void write_convoy(const ConvoyRobot& robot, ConvoyMessage& m) noexcept {
   const Vec2 parent = robot.table().position(robot.up());
   if (Vec2 pull; passes_pull_on(robot, pull)) write_in_edge_frame(pull, parent, pull_unit, m.pull_x, m.pull_y);
   if (Vec2 hinge; find_hinge(robot, self.corners, hinge))
-    write_in_edge_frame(hinge - parent, parent, per_cm, m.hinge_x_cm, m.hinge_y_cm);
+    write_in_edge_frame(hinge - parent, parent, m.hinge_x, m.hinge_y);
 }
 
 }  // namespace
@@ -212,27 +210,27 @@ static_assert(has_wide_ids || sizeof(PoweredConvoyState) <= most_state_bytes);
 
 ConvoyParams convoy_defaults() noexcept {
   ConvoyParams p;
-  p.ideal_distance_m = 1.90F;        // G: no edge outgrows it
-  p.safe_range_m = 1.80F;            // the root and junctions are towed only beyond it
-  p.recruitment_distance_m = 1.65F;  // a longer edge asks for a spare
-  p.avoidance_range_m = 0.36F;
-  p.interaction_gain = 10.0F;
+  p.ideal_distance = 0.95F;        // G: no edge outgrows it
+  p.safe_range = 0.90F;            // the root and junctions are towed only beyond it
+  p.recruitment_distance = 0.825F;  // a longer edge asks for a spare
+  p.avoidance_range = 0.18F;
+  p.interaction_gain = 0.05F;
   p.target_gain = 1.0F;
-  p.reconfiguration_period_s = 44.0F;
-  p.liveness_period_s = 0.5F;
-  p.insertion_distance_m = 0.066395F;
-  p.guard_rate_per_s = 2.0F;
-  p.connector_patience_s = 1.0F;
+  p.reconfiguration_drives = 4.4F;
+  p.liveness_rounds = 5.0F;
+  p.insertion_distance = 0.0331975F;
+  p.guard_rate = 20.0F;
+  p.connector_rounds = 10.0F;
   return p;
 }
 
 // A robot beside another reaches as far as that one only if edges have some slack. And chains from target to target
 // would make the ways to a charging place longer.
 ConvoyParams with_room_for_relief(ConvoyParams params) noexcept {
-  params.merge_distance_m = std::min(params.merge_distance_m, params.relief_edge_m);
-  params.compact_distance_m = std::min(params.compact_distance_m, params.relief_edge_m);
+  params.merge_distance = std::min(params.merge_distance, params.relief_edge);
+  params.compact_distance = std::min(params.compact_distance, params.relief_edge);
   params.thrift = 0.0F;  // it would stretch them again
-  params.plan_after_s = 0.0F;
+  params.plan_after_drives = 0.0F;
   return params;
 }
 
@@ -268,11 +266,11 @@ void begin_tick(ConvoyRobot& robot, const Inputs<Heard>& inputs) noexcept {
         close_gap(self.convoy_standings, k, size);
         if (robot.power != nullptr) close_gap(robot.power->power.standings, k, size);
       });
-  follow_orders(robot, inputs.senses().orders);
+  follow_orders(robot, inputs.orders());
 }
 
 // One tick of one robot, with a battery or without. Returns what the motors are to do.
-static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMessage& message) noexcept {
+static Motion tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMessage& message) noexcept {
   const ConvoyParams& params = robot.params;
   ConvoyState& state = robot.self;
   begin_tick(robot, inputs);
@@ -296,15 +294,15 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
                         .accepts = [](int) { return true; },
                         .prefers = [&](int a, int b) { return is_better_parent(robot, a, b); }});
   if (robot.power != nullptr) {
-    watch_charge(*robot.power, inputs.senses());  // must I be relieved?
+    watch_charge(*robot.power, inputs.charge(), inputs.orders());  // must I be relieved?
     watch_relief(*robot.power);                   // whom do I relieve?
   }
   heed_live_calls(robot);    // for a second path
   take_part_in_plan(robot);  // chains from target to target
   take_shortcuts(robot);     // what changes between reconstructions
-  state.corners.pinned = is_pinned(robot, state.corners, params.pull_start_m);
+  state.corners.pinned = is_pinned(robot, state.corners, params.pull_start);
   // A worker lags behind a moving target: the tree must follow before the worker is out of tolerance.
-  take_census(robot, rests_within * params.arrival_distance_m, own_want_m(robot));  // Alg. 1 and 2
+  take_census(robot, rests_within * params.arrival_distance, own_want(robot));  // Alg. 1 and 2
   select_root(
       robot, [&](int k) { return may_inherit(robot, k); }, is_leaving(robot));  // Select Root, the root's side
   find_hold(robot);  // what ties me to the others while I have no parent
@@ -334,14 +332,14 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
   keep_off(robot, guard);  // obstacles
   keep_sight(robot, state.corners, guard);
   push_nobody(robot, guard);
-  float pace = robot.power != nullptr ? give_way(*robot.power, params.clearance_m, guard) : 1.0F;
+  float pace = robot.power != nullptr ? give_way(*robot.power, params.clearance, guard) : 1.0F;
   if (retreats) pace = 1.0F;
 
   write_convoy(robot, message);
   const Vec2 v = allowed(pace < 1.0F ? clamped(u, 1.0F) * pace : u, guard, params);
   watch_progress(robot, retreats, v);  // does the worker make progress?
-  Velocity motion = drive(v, guard, params);
-  if (pace < 1.0F) motion.turn_rad_s *= std::min(1.0F, norm(v) / params.wheel_limit_m_s);
+  Motion motion = drive(v, guard, params);
+  if (pace < 1.0F) motion.turn *= std::min(1.0F, norm(v));
   return motion;
 }
 
@@ -350,7 +348,7 @@ Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state
   Workspace space(inputs);
   ConvoyRobot robot(params, state, inputs, space);
   Output<ConvoyMessage> output;
-  output.velocity = tick(robot, inputs, output.message);
+  output.motion = tick(robot, inputs, output.message);
   return output;
 }
 
@@ -369,7 +367,7 @@ Output<PoweredConvoyMessage> powered_convoy_step(const ConvoyParams& params, Pow
   robot.power = &power;
   robot.passes_targets_on = true;
   Output<PoweredConvoyMessage> output;
-  output.velocity = tick(robot, inputs, output.message);
+  output.motion = tick(robot, inputs, output.message);
   static_cast<PowerStanding&>(output.message) = state.power.said;
   return output;
 }

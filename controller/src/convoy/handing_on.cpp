@@ -24,7 +24,7 @@ bool is_held_by_branches(const ConvoyRobot& robot, int k) noexcept {
 // probably opposite.
 Vec2 place_beside(const ConvoyRobot& robot, int k) noexcept {
   constexpr float beside_junction = 0.175F;  // of C
-  constexpr int as_far_cm = 5;
+  constexpr int as_far = 6;
   const TreeTable& table = robot.table();
   const TreeStanding& junction = table.message(k);
   const Vec2 at = table.position(k);
@@ -33,12 +33,12 @@ Vec2 place_beside(const ConvoyRobot& robot, int k) noexcept {
   for (int n = 0; n < table.size(); ++n) {
     const TreeStanding& m = table.message(n);
     if (!table.alive(n) || m.parent != table.id(k) || m.role == Role::spare) continue;
-    if (junction.role != Role::worker && farthest < 0 && m.want_cm + as_far_cm >= junction.want_cm) farthest = n;
-    else if (other < 0 || m.want_cm < table.message(other).want_cm) other = n;
+    if (junction.role != Role::worker && farthest < 0 && m.want + as_far >= junction.want) farthest = n;
+    else if (other < 0 || m.want < table.message(other).want) other = n;
   }
   const Vec2 away = farthest >= 0 ? at - table.position(farthest) : left_of(at);
   const Vec2 way = other >= 0 ? table.position(other) - at : away;
-  return at + unit(way) * (beside_junction * robot.params.communication_range_m);
+  return at + unit(way) * beside_junction;
 }
 
 bool leave_junction(ConvoyRobot& robot) noexcept {
@@ -47,10 +47,10 @@ bool leave_junction(ConvoyRobot& robot) noexcept {
   if (!has_far_spares(robot) || junction.role != Role::connector || junction.need == Need::await) return false;
   if (!is_held_by_branches(robot, robot.parent)) return false;
   const bool calls = robot.self.call_hops == 0;
-  if (calls && static_cast<float>(junction.want_cm) <= 100.0F * robot.self.want_m + 1.0F) return false;
+  if (calls && static_cast<float>(junction.want) <= per_range * robot.self.want + 2.0F) return false;
   const int k = table.find(junction.parent);
   if (k < 0 || table.message(k).role == Role::worker || table.message(k).need == Need::await) return false;
-  if (!may_be_parent(robot, k, calls ? robot.parent_range_m() : robot.params.recruitment_distance_m)) return false;
+  if (!may_be_parent(robot, k, calls ? robot.parent_range() : robot.params.recruitment_distance)) return false;
   take_parent(robot, k);
   return true;
 }

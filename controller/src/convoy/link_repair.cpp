@@ -23,8 +23,7 @@ float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
   const TreeStanding& m = table.message(k);
-  const float c = p.communication_range_m;
-  if (k == robot.parent || table.age(k) > 0 || !robot.is_sure(k) || table.range(k) > robot.parent_range_m())
+  if (k == robot.parent || table.age(k) > 0 || !robot.is_sure(k) || table.range(k) > robot.parent_range())
     return impossible;
   const bool spare = m.role == Role::spare && m.parent == nobody && m.request == nobody &&
                      m.epoch == robot.self.epoch && m.tree_hops != unreachable &&
@@ -32,25 +31,25 @@ float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
   if (!spare && !is_rooted(robot, k)) return impossible;
   if (robot.power != nullptr && (is_leaving(robot, k) || (spare && !is_charged(*robot.power, k)))) return impossible;
   constexpr float costs_unclear = 2.0F;  // of C: as much as all the rest can be
-  const bool clear = sees_clearly(robot, k, p.clearance_m);
-  if (!clear && !(urgent && sees_clearly(robot, k, narrow * p.clearance_m))) return impossible;
-  const bool leaves = m.role == Role::worker && robot.self.want_m > 0.0F;  // it cannot be towed
-  return distance_to_segment(table.position(k), Vec2{}, table.position(robot.parent)) + (spare || leaves ? c : 0.0F) +
-         (clear ? 0.0F : costs_unclear * c);
+  const bool clear = sees_clearly(robot, k, p.clearance);
+  if (!clear && !(urgent && sees_clearly(robot, k, narrow * p.clearance))) return impossible;
+  const bool leaves = m.role == Role::worker && robot.self.want > 0.0F;  // it cannot be towed
+  return distance_to_segment(table.position(k), Vec2{}, table.position(robot.parent)) + (spare || leaves ? 1.0F : 0.0F) +
+         (clear ? 0.0F : costs_unclear);
 }
 
 }  // namespace
 
 Outlook outlook(const ConvoyRobot& robot) noexcept {
   constexpr int hidden_ticks = 1;
-  const float clearance_m = robot.params.clearance_m;
+  const float clearance = robot.params.clearance;
   const bool hidden = robot.table().age(robot.parent) > std::max(hidden_ticks, usual_silence_ticks(robot));
   // Companions stand near edges. Where robots hide nothing, that endangers none.
   if (has_companions(robot.params) && !robot.params.line_of_sight) return {hidden, hidden};
   const ConvoyMessage* parent = robot.parent_message();
   const bool warned = parent != nullptr && parent->warned == robot.self.id;
-  const bool endangered = hidden || warned || !sees_clearly(robot, robot.parent, danger * clearance_m);
-  return {endangered, endangered && (hidden || warned || !sees_clearly(robot, robot.parent, urgency * clearance_m))};
+  const bool endangered = hidden || warned || !sees_clearly(robot, robot.parent, danger * clearance);
+  return {endangered, endangered && (hidden || warned || !sees_clearly(robot, robot.parent, urgency * clearance))};
 }
 
 // Takes the best new parent that is ahead of me, a spare only when it is urgent. If there is none, my sequence
@@ -87,7 +86,7 @@ bool step_before_parent(ConvoyRobot& robot) noexcept {
   const int k = table.find(table.message(robot.parent).parent);
   if (k < 0 || table.age(k) > 0) return false;
   const float d = distance_to_segment(Vec2{}, table.position(robot.parent), table.position(k));
-  if (d > danger * p.clearance_m || !may_be_parent(robot, k, robot.parent_range_m())) return false;
+  if (d > danger * p.clearance || !may_be_parent(robot, k, robot.parent_range())) return false;
   take_parent(robot, k);
   return true;
 }
@@ -97,7 +96,7 @@ RobotId child_to_warn(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
   for (const int k : robot.children)
-    if (table.message(k).role != Role::spare && table.age(k) == 0 && !sees_clearly(robot, k, danger * p.clearance_m))
+    if (table.message(k).role != Role::spare && table.age(k) == 0 && !sees_clearly(robot, k, danger * p.clearance))
       return table.id(k);
   return nobody;
 }

@@ -15,13 +15,13 @@
 namespace banyan {
 namespace {
 
-constexpr float plan_limit_s = 30.0F;  // what has not been built by then is given up
-constexpr float plan_period_s = 40.0F;
-constexpr float thrifty_limit_s = 26.0F;
-constexpr float thrifty_period_s = 25.0F;
-constexpr float held_back_after_s = 6.0F;
-constexpr float unsettled_after_s = 3.0F;
-constexpr float far_m = 1e9F;
+constexpr float plan_limit_drives = 3.0F;  // what has not been built by then is given up
+constexpr float plan_period_drives = 4.0F;
+constexpr float thrifty_limit_drives = 2.6F;
+constexpr float thrifty_period_drives = 2.5F;
+constexpr float held_back_after_drives = 0.6F;
+constexpr int unsettled_ticks = 30;
+constexpr float far = 1e9F;
 
 const Task* find_active(const ConvoyRobot& robot, RobotId serves) noexcept {
   const Task* task = find_task(robot.self, serves);
@@ -52,28 +52,28 @@ struct TargetTree {
 // Prim (1957).
 TargetTree shortest_tree(const ConvoyRobot& robot, int first) noexcept {
   const ConvoyState& self = robot.self;
-  const float edge_m = thrifty_m(robot.params, robot.params.compact_distance_m);
+  const float edge = thrifty(robot.params, robot.params.compact_distance);
   TargetTree tree;
-  std::array<float, task_capacity> gap_m{};  // to the tree so far
+  std::array<float, task_capacity> gap{};  // to the tree so far
   std::array<bool, task_capacity> done{};
   for (int k = 0; k < self.task_count; ++k) done[k] = self.tasks[k].holder == nobody;
   tree.host.fill(-1);
-  gap_m.fill(far_m);
+  gap.fill(far);
   for (int next = first; next >= 0;) {
     const int host = tree.host[next];
     done[next] = true;
     if (host >= 0) tree.level[next] = tree.level[host] + 1;
     tree.deepest = std::max<int>(tree.deepest, tree.level[next]);
-    tree.robots += host < 0 ? 1 : static_cast<int>(gap_m[next] / edge_m) + 1;
+    tree.robots += host < 0 ? 1 : static_cast<int>(gap[next] / edge) + 1;
     const int last = next;
     next = -1;
     for (int k = 0; k < self.task_count; ++k) {
       if (done[k]) continue;
-      if (const float d = distance(self.tasks[k].target, self.tasks[last].target); d < gap_m[k]) {
-        gap_m[k] = d;
+      if (const float d = distance(self.tasks[k].target, self.tasks[last].target); d < gap[k]) {
+        gap[k] = d;
         tree.host[k] = static_cast<std::int16_t>(last);
       }
-      if (next < 0 || gap_m[k] < gap_m[next]) next = k;
+      if (next < 0 || gap[k] < gap[next]) next = k;
     }
   }
   return tree;
@@ -84,12 +84,12 @@ TargetTree best_tree(const ConvoyRobot& robot) noexcept {
   const ConvoyState& self = robot.self;
   const bool thrifty = robot.params.thrift > 0.0F;
   TargetTree best;
-  float nearest_m = far_m;
+  float nearest = far;
   for (int k = 0; k < self.task_count; ++k) {
     if (self.tasks[k].holder == nobody) continue;
     const float d = norm(self.tasks[k].target);
-    if (!thrifty && d >= nearest_m) continue;
-    nearest_m = d;
+    if (!thrifty && d >= nearest) continue;
+    nearest = d;
     const TargetTree tree = shortest_tree(robot, k);
     if (!thrifty || best.robots == 0 || tree.deepest < best.deepest) best = tree;
   }
@@ -119,19 +119,19 @@ void command(ConvoyRobot& robot) noexcept {
   // While a branch changes its parent its workers are not counted.
   robot.add_elapsed(self.unsettled_ticks);
   if (all_have_arrived(robot)) self.unsettled_ticks = 0;
-  if (self.unsettled_ticks > p.ticks(unsettled_after_s)) {
+  if (self.unsettled_ticks > unsettled_ticks) {
     self.settled_ticks = self.unsettled_ticks = 0;
     self.plan_targets = self.plan_levels = self.plan_steps = 0;
     return withdraw(self);
   }
   robot.add_elapsed(self.settled_ticks);
-  if (self.plan_ticks > p.ticks(thrifty ? thrifty_limit_s : plan_limit_s)) return withdraw(self);
-  const int since = self.settled_ticks - p.ticks(p.plan_after_s);
-  const int period = p.ticks(thrifty ? thrifty_period_s : plan_period_s);
+  if (self.plan_ticks > p.rounds(thrifty ? thrifty_limit_drives : plan_limit_drives)) return withdraw(self);
+  const int since = self.settled_ticks - p.rounds(p.plan_after_drives);
+  const int period = p.rounds(thrifty ? thrifty_period_drives : plan_period_drives);
   // Not before I know of all targets.
   const int targets = count_held(self);
   const bool may = static_cast<int>(self.subtree_workers) <= targets && !has_companions(p) && !self.forgets &&
-                   p.plan_after_s > 0.0F && since >= 0 && self.settled_ticks < UINT16_MAX;
+                   p.plan_after_drives > 0.0F && since >= 0 && self.settled_ticks < UINT16_MAX;
   if (!may || (thrifty ? since < self.plan_steps * period : since % period >= robot.elapsed_ticks)) return;
   if (!thrifty) {
     const int levels = 1 + since / period;
@@ -179,22 +179,22 @@ void shed(ConvoyRobot& robot) noexcept {
     if (over) self.shed = nobody;
     return;
   }
-  constexpr int hand_cm = 10;
+  constexpr int hand = 13;
   const auto all = self.known_tasks();
   const int reached = count_of(all, [](const Task& t) { return t.holder != nobody && t.reached; });
-  const int want_cm = static_cast<int>(self.want_m * 100.0F);
-  const bool is_short = robot.params.shed_after_s > 0.0F && !self.forgets &&
-                        self.want_m > robot.params.arrival_distance_m && self.call_hops != nobody_calls;
-  if (want_cm == 0 || (self.short_ticks == 0 && !is_short)) return void(self.short_ticks = 0);
-  if (self.short_ticks == 0 || want_cm < self.short_want_cm - hand_cm || reached > self.short_reached) {
+  const int want_steps = static_cast<int>(self.want * per_range);
+  const bool is_short = robot.params.shed_after_drives > 0.0F && !self.forgets &&
+                        self.want > robot.params.arrival_distance && self.call_hops != nobody_calls;
+  if (want_steps == 0 || (self.short_ticks == 0 && !is_short)) return void(self.short_ticks = 0);
+  if (self.short_ticks == 0 || want_steps < self.short_want - hand || reached > self.short_reached) {
     self.short_ticks = 0;
-    self.short_want_cm = static_cast<std::uint16_t>(want_cm);
+    self.short_want = static_cast<std::uint16_t>(want_steps);
     self.short_reached = static_cast<std::uint8_t>(reached);
   }
   robot.add_elapsed(self.short_ticks);
   constexpr float sooner = 0.45F;  // once it is known that robots are too few
   const bool known = banyan::any_of(all, [](const Task& t) { return t.holder == nobody || t.times_put_off > 0; });
-  if (self.short_ticks <= robot.params.ticks((known ? sooner : 1.0F) * robot.params.shed_after_s) || !is_short) return;
+  if (self.short_ticks <= robot.params.rounds((known ? sooner : 1.0F) * robot.params.shed_after_drives) || !is_short) return;
   self.shed = least_worth(robot);
   self.short_ticks = 0;
 }
@@ -202,10 +202,10 @@ void shed(ConvoyRobot& robot) noexcept {
 // The fewest robots that it takes beside what stands: along a straight line from the nearest way to a target that is
 // held. If none is, all come along.
 int least_robots(const ConvoyRobot& robot, const Task& task) noexcept {
-  float gap_m = far_m;
+  float gap = far;
   for (const Task& other : robot.self.known_tasks())
-    if (other.holder != nobody) gap_m = std::min(gap_m, distance_to_segment(task.target, other.target, Vec2{}));
-  return gap_m < far_m ? static_cast<int>((gap_m - robot.params.arrival_distance_m) / robot.params.ideal_distance_m) + 1
+    if (other.holder != nobody) gap = std::min(gap, distance_to_segment(task.target, other.target, Vec2{}));
+  return gap < far ? static_cast<int>((gap - robot.params.arrival_distance) / robot.params.ideal_distance) + 1
                        : 1;
 }
 
@@ -213,8 +213,8 @@ int least_robots(const ConvoyRobot& robot, const Task& task) noexcept {
 // spares than ever before, else after a pause that doubles with each time. If nobody sets out for it, it is put off
 // again.
 void retry(ConvoyRobot& robot) noexcept {
-  constexpr float first_pause_s = 30.0F;
-  constexpr float unclaimed_s = 60.0F;
+  constexpr float first_pause_drives = 3.0F;
+  constexpr float unclaimed_drives = 6.0F;
   ConvoyState& self = robot.self;
   const int spares = static_cast<int>(self.root_size) - static_cast<int>(self.subtree);
   const int tried_with = static_cast<int>(self.tried_with);
@@ -224,9 +224,9 @@ void retry(ConvoyRobot& robot) noexcept {
   int fewest = spares + 1;
   for (Task& task : self.known_tasks()) {
     if ((is_tried_again(task) || task.serves == self.shed) && task.holder != nobody &&
-        task.age_ticks > robot.params.ticks(unclaimed_s))
+        task.age_ticks > robot.params.rounds(unclaimed_drives))
       return put_off(robot, task);
-    const int pause_ticks = robot.params.ticks(first_pause_s) << (spares > tried_with ? 1 : int{task.times_put_off});
+    const int pause_ticks = robot.params.rounds(first_pause_drives) << (spares > tried_with ? 1 : int{task.times_put_off});
     if (!settled || !is_put_off(task) || task.unlocated || task.age_ticks <= pause_ticks) continue;
     if (const int robots = least_robots(robot, task); robots < fewest) next = &task, fewest = robots;
   }
@@ -287,9 +287,9 @@ RobotId lead_of(const ConvoyRobot& robot) noexcept {
 }  // namespace
 
 bool has_settled(const ConvoyRobot& robot) noexcept {
-  constexpr float settled_s = 5.0F;
-  static_assert(settled_s > unsettled_after_s, "until then settled_ticks grows, whoever is missing");
-  return robot.self.settled_ticks > robot.params.ticks(settled_s);
+  constexpr int settled_ticks = 50;
+  static_assert(settled_ticks > unsettled_ticks, "until then settled_ticks grows, whoever is missing");
+  return robot.self.settled_ticks > settled_ticks;
 }
 
 bool find_goal(const ConvoyRobot& robot, Vec2& goal) noexcept {
@@ -299,7 +299,7 @@ bool find_goal(const ConvoyRobot& robot, Vec2& goal) noexcept {
 }
 
 bool is_held_back(const ConvoyRobot& robot) noexcept {
-  return robot.self.lead_to != nobody && robot.self.lead_ticks > robot.params.ticks(held_back_after_s);
+  return robot.self.lead_to != nobody && robot.self.lead_ticks > robot.params.rounds(held_back_after_drives);
 }
 
 Vec2 lead(const ConvoyRobot& robot) noexcept {

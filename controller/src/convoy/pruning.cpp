@@ -11,13 +11,13 @@
 namespace banyan {
 namespace {
 
-constexpr float merge_period_s = 2.0F;
+constexpr int period = 20;  // ticks
 constexpr float shorter_by = 0.1F;  // of C: an edge so much shorter is worth a change of parent
 
 // Whether neighbour k may carry a branch that has arrived: at rest itself, and not about to leave the tree.
 bool can_carry(const ConvoyRobot& robot, int k) noexcept {
   const TreeStanding& m = robot.table().message(k);
-  return k != robot.parent && !is_leaving(robot, k) && m.want_cm == 0 && m.epoch == robot.self.epoch &&
+  return k != robot.parent && !is_leaving(robot, k) && m.want == 0 && m.epoch == robot.self.epoch &&
          (m.role != Role::connector || robot.convoy_of(k).child_count > 0) && is_rooted_in_sight(robot, k);
 }
 
@@ -31,11 +31,11 @@ bool saves_parent(const ConvoyRobot& robot) noexcept {
 // Takes the reachable neighbour nearest to the root as parent, at once.
 bool merge(ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
-  const float reach_m = thrifty_m(robot.params, robot.params.merge_distance_m);
+  const float reach = thrifty(robot.params, robot.params.merge_distance);
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
-    if (table.range(k) > reach_m || table.message(k).label_cm >= robot.self.label_cm || !is_ahead(robot, k)) continue;
-    if (best >= 0 && table.message(k).label_cm >= table.message(best).label_cm) continue;
+    if (table.range(k) > reach || table.message(k).label >= robot.self.label || !is_ahead(robot, k)) continue;
+    if (best >= 0 && table.message(k).label >= table.message(best).label) continue;
     if (can_carry(robot, k)) best = k;
   }
   if (best < 0) return false;
@@ -46,11 +46,11 @@ bool merge(ConvoyRobot& robot) noexcept {
 // Robots that are not ahead of me may be below me in the tree or in another branch: I cannot tell. I let my
 // sequence number rest, which a robot below me never overtakes. Each turn tries another candidate; otherwise a
 // robot below me might be the only one ever tried.
-void want_parent(ConvoyRobot& robot, float reach_m, int turn) noexcept {
+void want_parent(ConvoyRobot& robot, float reach, int turn) noexcept {
   const TreeTable& table = robot.table();
   IndexList carriers;
   for (int k = 0; k < table.size(); ++k)
-    if (table.range(k) < reach_m && can_carry(robot, k)) carriers.push(k);
+    if (table.range(k) < reach && can_carry(robot, k)) carriers.push(k);
   if (carriers.size == 0) return;
   robot.self.pending_parent = table.id(carriers.items[turn % carriers.size]);
   robot.self.pending_ticks = 0;
@@ -59,8 +59,8 @@ void want_parent(ConvoyRobot& robot, float reach_m, int turn) noexcept {
 void follow_pending(ConvoyRobot& robot) noexcept {
   ConvoyState& self = robot.self;
   const int k = robot.table().find(self.pending_parent);
-  const float reach_m = thrifty_m(robot.params, robot.params.merge_distance_m);
-  if (k < 0 || ++self.pending_ticks > pending_limit_ticks || robot.table().range(k) > reach_m || !can_carry(robot, k)) {
+  const float reach = thrifty(robot.params, robot.params.merge_distance);
+  if (k < 0 || ++self.pending_ticks > pending_limit_ticks || robot.table().range(k) > reach || !can_carry(robot, k)) {
     self.pending_parent = nobody;
   } else if (is_ahead(robot, k)) {
     take_parent(robot, k);
@@ -72,15 +72,14 @@ void want_next_step(ConvoyRobot& robot) noexcept {
   Vec2 goal;
   if (!find_goal(robot, goal)) return;
   const TreeTable& table = robot.table();
-  const float c = robot.params.communication_range_m;
   int best = -1;
-  float best_m = distance(table.position(robot.parent), goal) - shorter_by * c;
+  float best_length = distance(table.position(robot.parent), goal) - shorter_by;
   for (int k = 0; k < table.size(); ++k) {
     const float d = distance(table.position(k), goal);
-    if (d >= best_m || table.range(k) > thrifty_m(robot.params, robot.params.merge_distance_m) || !can_carry(robot, k))
+    if (d >= best_length || table.range(k) > thrifty(robot.params, robot.params.merge_distance) || !can_carry(robot, k))
       continue;
     best = k;
-    best_m = d;
+    best_length = d;
   }
   if (best < 0) return;
   robot.self.pending_parent = table.id(best);
@@ -95,15 +94,13 @@ void prune(ConvoyRobot& robot) noexcept {
   if (self.pending_parent != nobody) return follow_pending(robot);
   if (is_planned(self)) return want_next_step(robot);  // other changes would undo the plan
   const ConvoyParams& p = robot.params;
-  const int period = std::max(1, p.ticks(merge_period_s));
   const TreeStanding& parent = robot.table().message(robot.parent);
   if (static_cast<int>((self.phase_ticks + self.id) % period) >= robot.elapsed_ticks || parent.need == Need::await ||
       parent.inserted_child != nobody)
     return;
   const int turn = self.phase_ticks / period;
-  const float c = p.communication_range_m;
-  if (!saves_parent(robot)) want_parent(robot, robot.table().range(robot.parent) - shorter_by * c, turn);
-  else if (!merge(robot)) want_parent(robot, thrifty_m(p, p.merge_distance_m), turn);
+  if (!saves_parent(robot)) want_parent(robot, robot.table().range(robot.parent) - shorter_by, turn);
+  else if (!merge(robot)) want_parent(robot, thrifty(p, p.merge_distance), turn);
 }
 
 }  // namespace banyan

@@ -31,10 +31,10 @@ void release(ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   // A worker cannot be towed: a robot released between it and the root is free for the edge to its child.
   const bool helps = robot.self.is_worker && robot.self.call_hops == 1;
-  const float merge_m = has_arrived(robot) ? thrifty_m(p, p.merge_distance_m) : helps ? p.merge_distance_m : 0.0F;
-  const float limit_m = folds(robot) ? folded_release * folded_edge_m(p) : std::max(p.release_distance_m, merge_m);
-  const float reach_m = limit_m - releases_later * table.spread_m();
-  if (may_be_parent(robot, k, reach_m)) take_parent(robot, k);
+  const float merge = has_arrived(robot) ? thrifty(p, p.merge_distance) : helps ? p.merge_distance : 0.0F;
+  const float limit = folds(robot) ? folded_release * folded_edge(p) : std::max(p.release_distance, merge);
+  const float reach = limit - releases_later * table.spread();
+  if (may_be_parent(robot, k, reach)) take_parent(robot, k);
 }
 
 // A worker that stands still and from which I can reach my target: neither of us has to be towed.
@@ -47,15 +47,15 @@ void take_nearer(ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
   int best = -1;
-  float best_m = folds(robot) ? folded_edge_m(p) : p.release_distance_m;
+  float best_length = folds(robot) ? folded_edge(p) : p.release_distance;
   for (int k = 0; k < table.size(); ++k) {
-    if (k == robot.parent || table.range(k) >= best_m || !may_be_parent(robot, k, best_m)) continue;
+    if (k == robot.parent || table.range(k) >= best_length || !may_be_parent(robot, k, best_length)) continue;
     if (table.message(k).role == Role::worker && !is_relay(robot, k) && !is_enough(robot, k)) continue;
     best = k;
-    best_m = table.range(k);
+    best_length = table.range(k);
   }
   for (int k = 0; best < 0 && k < table.size() && !folds(robot); ++k)
-    if (k != robot.parent && is_enough(robot, k) && may_be_parent(robot, k, robot.parent_range_m())) best = k;
+    if (k != robot.parent && is_enough(robot, k) && may_be_parent(robot, k, robot.parent_range())) best = k;
   if (best >= 0) take_parent(robot, best);
 }
 
@@ -63,7 +63,7 @@ void take_nearer(ConvoyRobot& robot) noexcept {
 void leave_worker(ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   const int best = least_of(table.size(), not_counted, [&](int k) {
-    const bool may = table.message(k).role != Role::worker && may_be_parent(robot, k, robot.parent_range_m());
+    const bool may = table.message(k).role != Role::worker && may_be_parent(robot, k, robot.parent_range());
     return may ? table.range(k) : not_counted;
   });
   if (best >= 0) take_parent(robot, best);
@@ -74,7 +74,7 @@ void take_inner(ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   const auto depth = [&](int k) { return static_cast<float>(table.message(k).depth); };
   const int best = least_of(table.size(), depth(robot.parent), [&](int k) {
-    const bool may = table.message(k).role != Role::worker && may_be_parent(robot, k, robot.parent_range_m());
+    const bool may = table.message(k).role != Role::worker && may_be_parent(robot, k, robot.parent_range());
     return may ? depth(k) : not_counted;
   });
   if (best >= 0) take_parent(robot, best);
@@ -86,7 +86,7 @@ bool stands_at_target(const ConvoyRobot& robot, int k) noexcept {
   if (robot.table().message(k).role != Role::worker) return false;
   const Task* task = find_task(robot.self, robot.served_by(k));
   return task != nullptr && !task->unlocated &&
-         distance(robot.table().position(k), task->target) < robot.params.arrival_distance_m;
+         distance(robot.table().position(k), task->target) < robot.params.arrival_distance;
 }
 
 bool reaches_target_from(const ConvoyRobot& robot, int k) noexcept {
@@ -96,7 +96,7 @@ bool reaches_target_from(const ConvoyRobot& robot, int k) noexcept {
     const Task* task = find_task(robot.self, robot.served_by(k));
     if (task != nullptr && !task->unlocated) at = task->target;
   }
-  return distance(at, *robot.target) < robot.parent_range_m();
+  return distance(at, *robot.target) < robot.parent_range();
 }
 
 bool is_rooted(const ConvoyRobot& robot, int k) noexcept {
@@ -107,11 +107,11 @@ bool is_rooted(const ConvoyRobot& robot, int k) noexcept {
 }
 
 bool is_rooted_in_sight(const ConvoyRobot& robot, int k) noexcept {
-  return is_rooted(robot, k) && sees_clearly(robot, k, robot.params.clearance_m);
+  return is_rooted(robot, k) && sees_clearly(robot, k, robot.params.clearance);
 }
 
-bool may_be_parent(const ConvoyRobot& robot, int k, float range_m) noexcept {
-  return robot.table().range(k) <= range_m && !is_leaving(robot, k) && is_ahead(robot, k) &&
+bool may_be_parent(const ConvoyRobot& robot, int k, float range) noexcept {
+  return robot.table().range(k) <= range && !is_leaving(robot, k) && is_ahead(robot, k) &&
          is_rooted_in_sight(robot, k);
 }
 
@@ -131,15 +131,15 @@ void take_shortcuts(ConvoyRobot& robot) noexcept {
   if (self.grant != nobody) return;  // this edge is about to change already
   if (robot.power != nullptr) {
     const int k = successor_of_parent(*robot.power, [&](int n) {
-      return robot.table().range(n) <= robot.parent_range_m() && is_ahead(robot, n) && is_rooted(robot, n) &&
-             sees_clearly(robot, n, beside_leaver * robot.params.clearance_m);
+      return robot.table().range(n) <= robot.parent_range() && is_ahead(robot, n) && is_rooted(robot, n) &&
+             sees_clearly(robot, n, beside_leaver * robot.params.clearance);
     });
     if (k >= 0) return take_parent(robot, k);
     if (is_leaving(robot) || robot.power->power.said.relieves != nobody) return;  // no robot is saved meanwhile
   }
   if (step_before_parent(robot) || leave_junction(robot)) return;
   if (is_left_waiting(robot)) take_inner(robot);
-  else if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
+  else if (self.want > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
   else if (self.need == Need::need) take_nearer(robot);
   else if (self.lead_to == nobody) release(robot);
   if (may_save) prune(robot);

@@ -30,13 +30,13 @@ constexpr float called_follow_spare = 0.6F;  // the same while it is called else
 constexpr float called_follow_tree = 0.75F;
 constexpr float called_follow_thin = 0.9F;  // where no crowd is, and packets get lost
 constexpr int lost_hops = 12;               // without contact to the tree, tree_hops counts up by one a tick
-constexpr float pinned_start_m = 0.25F;
-constexpr float pinned_width_m = 0.10F;
-constexpr float up_start_m = 0.05F;  // beside a junction that is handed on
-constexpr float up_width_m = 0.20F;
+constexpr float pinned_start = 0.125F;
+constexpr float pinned_width = 0.05F;
+constexpr float up_start = 0.025F;  // beside a junction that is handed on
+constexpr float up_width = 0.10F;
 
 constexpr float tows_sooner = 4.0F;        // times the spread of ranges
-constexpr float as_good_as_there = 0.95F;  // of arrival_distance_m
+constexpr float as_good_as_there = 0.95F;  // of arrival_distance
 constexpr int slack_reach_hops = 8;
 constexpr int silent_ticks = 2;  // a robot silent for longer is out of sight
 
@@ -45,14 +45,14 @@ bool is_short_of_robots(const ConvoyRobot& robot) noexcept { return robot.self.c
 
 // The workers below me have come no nearer to their targets for a while. In a large swarm rule 16 helps them.
 bool is_stuck(const ConvoyRobot& robot) noexcept {
-  constexpr float stuck_after_s = 5.0F;
-  return !is_counted_large(robot) && robot.self.stalled_ticks > robot.params.ticks(stuck_after_s);
+  constexpr float stuck_after_drives = 0.5F;
+  return !is_counted_large(robot) && robot.self.stalled_ticks > robot.params.rounds(stuck_after_drives);
 }
 
 // Neighbour k stands at its target, and robots below it in the tree still have to go on.
 bool tows_past(const ConvoyRobot& robot, int k) noexcept {
-  const float want_m = static_cast<float>(robot.table().message(k).want_cm) * 0.01F;
-  return robot.convoy_of(k).child_count > 0 && want_m > robot.params.arrival_distance_m && stands_at_target(robot, k);
+  const float want = from_fixed(robot.table().message(k).want);
+  return robot.convoy_of(k).child_count > 0 && want > robot.params.arrival_distance && stands_at_target(robot, k);
 }
 
 // The pull that neighbour k has sent me, its parent.
@@ -67,7 +67,7 @@ Vec2 way_past(const ConvoyRobot& robot, int k) noexcept {
   const Vec2 pull = pull_of(robot, k);
   const Vec2 at = robot.table().position(k);
   const float d = robot.table().range(k);
-  if (!is_stuck(robot) || d > robot.params.avoidance_range_m || dot(pull, at) <= 0.0F) return pull;
+  if (!is_stuck(robot) || d > robot.params.avoidance_range || dot(pull, at) <= 0.0F) return pull;
   const Vec2 left = left_of(at) / d;
   return dot(pull, left) < 0.0F ? -left : left;
 }
@@ -75,8 +75,8 @@ Vec2 way_past(const ConvoyRobot& robot, int k) noexcept {
 // The chain below me has slack, and I am a junction of a large swarm: my parent is near, or has come up to me.
 bool has_slack_below(const ConvoyRobot& robot) noexcept {
   constexpr float near_parent = 0.5F;  // of C
-  const float near_m = near_parent * robot.params.communication_range_m;
-  return has_far_spares(robot) && robot.parent >= 0 && robot.table().range(robot.parent) < near_m;
+  const float near = near_parent;
+  return has_far_spares(robot) && robot.parent >= 0 && robot.table().range(robot.parent) < near;
 }
 
 // Children that still have to go on tow me, in proportion to how far the edge is stretched. The root and
@@ -85,18 +85,18 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
   // While spares are short, a child that is almost there does not tow: the slack is left to others.
-  const auto least_cm =
-      is_short_of_robots(robot) ? static_cast<int>(as_good_as_there * p.arrival_distance_m * 100.0F) : 0;
+  const auto least =
+      is_short_of_robots(robot) ? static_cast<int>(as_good_as_there * p.arrival_distance * per_range) : 0;
   const auto tows = [&](int k) {
     const TreeStanding& m = table.message(k);
-    return m.role != Role::spare && m.want_cm > least_cm && up_of(m) == robot.self.id;
+    return m.role != Role::spare && m.want > least && up_of(m) == robot.self.id;
   };
   int count = 0;
   for (const IndexList* below : {&robot.children, &robot.old_children})
     for (const int k : *below) count += tows(k) ? 1 : 0;
   // Noise makes the guard hold a child back now and then: its parent comes along sooner.
   const bool stays = robot.is_root() || (count > 1 && !has_slack_below(robot));
-  const float start_m = (stays ? p.safe_range_m : p.pull_start_m) - tows_sooner * table.spread_m();
+  const float start = (stays ? p.safe_range : p.pull_start) - tows_sooner * table.spread();
   Vec2 u;
   const auto add = [&](int k) {
     if (!tows(k)) return;
@@ -107,12 +107,12 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
     }
     if (count == 1 && has_far_spares(robot) && is_held_by_branches(robot, k)) {
       const Vec2 way = place_beside(robot, k);
-      u += unit(way) * std::max(ramp(norm(way), up_start_m, up_width_m), ramp(table.range(k), start_m, p.pull_width_m));
+      u += unit(way) * std::max(ramp(norm(way), up_start, up_width), ramp(table.range(k), start, p.pull_width));
       return;
     }
     // A child at a corner needs its parent there before it can go round.
-    const float weight = robot.corner_of(k).pinned ? ramp(table.range(k), pinned_start_m, pinned_width_m)
-                                                   : ramp(table.range(k), start_m, p.pull_width_m);
+    const float weight = robot.corner_of(k).pinned ? ramp(table.range(k), pinned_start, pinned_width)
+                                                   : ramp(table.range(k), start, p.pull_width);
     u += unit(table.position(k)) * weight;
   };
   for (const IndexList* below : {&robot.children, &robot.old_children})
@@ -121,10 +121,10 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
 }
 
 // Edges as strings, each drawn the harder the longer it is.
-Vec2 strings(const ConvoyRobot& robot, float start_m, float width_m) noexcept {
+Vec2 strings(const ConvoyRobot& robot, float start, float width) noexcept {
   const TreeTable& table = robot.table();
   Vec2 u;
-  const auto draw = [&](int k) { u += unit(table.position(k)) * ramp(table.range(k), start_m, width_m); };
+  const auto draw = [&](int k) { u += unit(table.position(k)) * ramp(table.range(k), start, width); };
   if (robot.parent >= 0) draw(robot.parent);
   else if (robot.old_parent >= 0) draw(robot.old_parent);
   for (const int k : robot.children)
@@ -135,13 +135,13 @@ Vec2 strings(const ConvoyRobot& robot, float start_m, float width_m) noexcept {
 // Under tension a chain becomes straight, and three chains meet at 120 degrees.
 Vec2 tension(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
-  return strings(robot, p.tension_start_m, p.tension_width_m) * p.tension_gain;
+  return strings(robot, p.tension_start, p.tension_width) * p.tension_gain;
 }
 
 // In a large swarm: I am on my way past child k or up to it, and my other edges are not to hold me back.
 bool goes_to_child(const ConvoyRobot& robot) noexcept {
-  constexpr float on_the_way_m = 1.0F;
-  return has_far_spares(robot) && robot.self.want_m > on_the_way_m && banyan::any_of(robot.children, [&](int k) {
+  constexpr float on_the_way = 0.5F;
+  return has_far_spares(robot) && robot.self.want > on_the_way && banyan::any_of(robot.children, [&](int k) {
            return robot.table().message(k).role != Role::spare &&
                   (tows_past(robot, k) || is_held_by_branches(robot, k));
          });
@@ -151,7 +151,7 @@ bool goes_to_child(const ConvoyRobot& robot) noexcept {
 Vec2 shared_slack(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   if (!is_short_of_robots(robot) || goes_to_child(robot)) return {};
-  return strings(robot, p.pull_start_m, p.ideal_distance_m - p.pull_start_m) * p.slack_gain;
+  return strings(robot, p.pull_start, p.ideal_distance - p.pull_start) * p.slack_gain;
 }
 
 // From spares only at a smaller distance, since they make room themselves.
@@ -161,8 +161,8 @@ Vec2 repulsion(const ConvoyRobot& robot) noexcept {
   Vec2 u;
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
-    if (d >= p.avoidance_range_m || d <= same_spot_m || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
-    const float a = table.message(k).role == Role::spare ? p.spare_avoidance_m : p.avoidance_range_m;
+    if (d >= p.avoidance_range || d <= same_spot || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
+    const float a = table.message(k).role == Role::spare ? p.spare_avoidance : p.avoidance_range;
     if (d < a) u += table.position(k) * (-p.avoidance_gain * (a / d - 1.0F) / d);
   }
   return u;
@@ -184,31 +184,31 @@ template <class Visit> void for_each_other_edge(const ConvoyRobot& robot, Visit 
 }
 
 // Moves out of the lines of sight of these edges.
-Vec2 make_way(const ConvoyRobot& robot, float width_m) noexcept {
-  static constexpr float either_side_m = 1e-3F;
+Vec2 make_way(const ConvoyRobot& robot, float width) noexcept {
+  static constexpr float either_side = 5e-4F;
   Vec2 u;
   for_each_other_edge(robot, [&](Vec2 a, Vec2 b) {
     const Vec2 near = nearest_on_segment(a, b);
     const float d = norm(near);
-    if (d >= width_m) return;
+    if (d >= width) return;
     const Vec2 along = unit(b - a);
-    const Vec2 side = d > either_side_m ? -near / d : Vec2{-along.y, along.x};
-    u += side * push_off_line(d, width_m);
+    const Vec2 side = d > either_side ? -near / d : Vec2{-along.y, along.x};
+    u += side * push_off_line(d, width);
   });
-  return u * robot.params.corridor_gain + clear_folds(robot, width_m);
+  return u * robot.params.corridor_gain + clear_folds(robot, width);
 }
 
 // On that way, as far as others and the lines of sight of edges let it.
-Vec2 pushed_off(const ConvoyRobot& robot, Vec2 way, float way_m) noexcept {
-  return way + repulsion(robot) + make_way(robot, way_m);
+Vec2 pushed_off(const ConvoyRobot& robot, Vec2 way, float width) noexcept {
+  return way + repulsion(robot) + make_way(robot, width);
 }
 
 // The course of a spare that is needed elsewhere. If others push it back so hard that it almost stops, the push is
 // turned sideways, to the side to which it is pushed already; among obstacles bypass() chooses the side.
-Vec2 past(const ConvoyRobot& robot, Vec2 way, float way_m) noexcept {
+Vec2 past(const ConvoyRobot& robot, Vec2 way, float width) noexcept {
   constexpr float stopped = 0.7F;
   const Vec2 apart = repulsion(robot);
-  const Vec2 out = make_way(robot, way_m);
+  const Vec2 out = make_way(robot, width);
   const float against = -dot(way, apart + out);
   if (against < stopped || robot.self.corners.landmarks.size > 0) return way + apart + out;
   const Vec2 left = left_of(way);
@@ -226,14 +226,14 @@ int tree_neighbor(const ConvoyRobot& robot, int n) noexcept {
 // With thrift: a junction goes to each of its tree neighbours in turn, since the robot that can be saved may be on any
 // branch. To a child only while no robot is near its edges, which might be drawn across that robot.
 int junction_way(const ConvoyRobot& robot) noexcept {
-  constexpr float turn_s = 12.0F;
+  constexpr float turn_drives = 1.2F;
   const ConvoyParams& p = robot.params;
-  int turn = robot.self.phase_ticks / p.ticks(turn_s) % (robot.useful_children + 1);
+  int turn = robot.self.phase_ticks / p.rounds(turn_drives) % (robot.useful_children + 1);
   int way = robot.parent;
   for (int n = 0; n <= robot.children.size; ++n) {
     const int k = tree_neighbor(robot, n);
     if (k < 0) continue;
-    if (p.line_of_sight && !sees_clearly(robot, k, wide * p.clearance_m)) return robot.parent;
+    if (p.line_of_sight && !sees_clearly(robot, k, wide * p.clearance)) return robot.parent;
     if (turn-- == 0) way = k;
   }
   return way;
@@ -264,7 +264,7 @@ Vec2 sliding(const ConvoyRobot& robot, int way) noexcept {
       const int k = tree_neighbor(robot, n);
       if (k < 0 || k == way) continue;
       const float slack =
-          std::clamp((thrifty_m(p, p.compact_distance_m) - table.range(k)) / (compact_width * p.communication_range_m),
+          std::clamp((thrifty(p, p.compact_distance) - table.range(k)) / compact_width,
                      -1.0F, 1.0F);
       const Vec2 away = -unit(table.position(k));
       if (const float too_fast = dot(u, away) - slack; too_fast > 0.0F) u += away * -too_fast;
@@ -280,7 +280,6 @@ Vec2 compaction(const ConvoyRobot& robot) noexcept {
   if (robot.self.forgets && !is_counted_large(robot)) return {};
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
-  const float c = p.communication_range_m;
   const int way = pruning_way(robot);
   if (way < 0) return {};
   int longest = -1;
@@ -289,7 +288,7 @@ Vec2 compaction(const ConvoyRobot& robot) noexcept {
       longest = k;
   if (longest < 0) return robot.is_root() ? unit(table.position(way)) * compact_gain : Vec2{};
   if (p.thrift > 0.0F) return sliding(robot, way);
-  const float slack = std::clamp((p.compact_distance_m / c - table.range(longest) / c) / compact_width, -1.0F, 1.0F);
+  const float slack = std::clamp((p.compact_distance - table.range(longest)) / compact_width, -1.0F, 1.0F);
   return (slack > 0.0F ? unit(table.position(way)) : -unit(table.position(longest))) * (slack * compact_gain);
 }
 
@@ -307,23 +306,23 @@ bool lost_sight(const ConvoyRobot& robot, int up) noexcept {
 // A worker's pull, or along the obstacle in its way.
 Vec2 pull_past_obstacles(const ConvoyRobot& robot) noexcept {
   const Vec2 pull = robot.self.pull;
-  const float goal_m = robot.target != nullptr ? norm(*robot.target) : robot.self.want_m;
+  const float goal = robot.target != nullptr ? norm(*robot.target) : robot.self.want;
   // The last bit straight, as near as obstacles allow: a dead worker may lie on its successor's target. But if that
   // is in vain, there is a wall in between.
   constexpr float last_bit = 0.15F;  // of C
   constexpr int in_vain = 50;        // ticks at an obstacle
-  if (goal_m < last_bit * robot.params.communication_range_m && robot.self.progress.vain_ticks < in_vain) return pull;
-  return bypass(robot, unit(pull) * goal_m) * norm(pull);
+  if (goal < last_bit && robot.self.progress.vain_ticks < in_vain) return pull;
+  return bypass(robot, unit(pull) * goal) * norm(pull);
 }
 
 // While the tree is reconstructed, a lost line of sight cannot be repaired. If all workers have arrived,
 // there is no hurry either: it is best that no robot moves.
 bool holds_still(const ConvoyRobot& robot) noexcept {
   if (robot.self.phase != Phase::start_tree && robot.self.phase != Phase::select_parent) return false;
-  if (robot.self.want_m > 0.0F) return false;
+  if (robot.self.want > 0.0F) return false;
   const TreeTable& table = robot.table();
   for (int k = 0; k < table.size(); ++k)
-    if (table.message(k).want_cm > 0) return false;
+    if (table.message(k).want > 0) return false;
   return true;
 }
 
@@ -350,9 +349,8 @@ Vec2 before_tree(const ConvoyRobot& robot) noexcept {
   }
   const Vec2 on = pull_past_obstacles(robot) + repulsion(robot);
   if (robot.hold < 0) return on;
-  const float c = p.communication_range_m;
   const float back =
-      ramp(robot.table().range(robot.hold), p.recruitment_distance_m - 0.5F * hold_width * c, hold_width * c);
+      ramp(robot.table().range(robot.hold), p.recruitment_distance - 0.5F * hold_width, hold_width);
   return on * (1.0F - back) + unit(robot.table().position(robot.hold)) * back;
 }
 
@@ -365,7 +363,7 @@ int followed_by(const ConvoyRobot& robot) noexcept {
     const float home_c = is_thin(self)                             ? called_follow_thin
                          : table.message(home).role == Role::spare ? called_follow_spare
                                                                    : called_follow_tree;
-    if (table.range(home) > home_c * robot.params.communication_range_m) return home;
+    if (table.range(home) > home_c) return home;
   }
   return table.find(self.parent != nobody ? self.parent : self.reference);
 }
@@ -383,12 +381,12 @@ Vec2 way_round(const ConvoyRobot& robot, int k) noexcept {
 
 bool passes_pull_on(const ConvoyRobot& robot, Vec2& pull) noexcept {
   const ConvoyState& self = robot.self;
-  if (!self.is_worker || robot.target == nullptr || norm(*robot.target) >= robot.params.arrival_distance_m)
+  if (!self.is_worker || robot.target == nullptr || norm(*robot.target) >= robot.params.arrival_distance)
     return false;
   const TreeTable& table = robot.table();
   int best = -1;
   for (const int k : robot.children)
-    if (table.message(k).role != Role::spare && table.message(k).want_cm > (best < 0 ? 0 : table.message(best).want_cm))
+    if (table.message(k).role != Role::spare && table.message(k).want > (best < 0 ? 0 : table.message(best).want))
       best = k;
   if (best < 0) return false;
   // My parent is to come to where that child can take it as its own, and the child may have to go elsewhere.
@@ -396,15 +394,15 @@ bool passes_pull_on(const ConvoyRobot& robot, Vec2& pull) noexcept {
   return true;
 }
 
-bool prunes(const ConvoyParams& params) noexcept { return params.merge_distance_m > 0.0F; }
+bool prunes(const ConvoyParams& params) noexcept { return params.merge_distance > 0.0F; }
 
 bool has_arrived(const ConvoyRobot& robot) noexcept {
-  return prunes(robot.params) && robot.self.want_m == 0.0F && robot.self.subtree_workers > 0;
+  return prunes(robot.params) && robot.self.want == 0.0F && robot.self.subtree_workers > 0;
 }
 
 bool is_relay(const ConvoyRobot& robot, int k) noexcept {
   const TreeStanding& m = robot.table().message(k);
-  return prunes(robot.params) && m.role == Role::worker && m.want_cm == 0 && robot.self.want_m == 0.0F;
+  return prunes(robot.params) && m.role == Role::worker && m.want == 0 && robot.self.want == 0.0F;
 }
 
 // A point beside the first robot of the tree that stands in the way of a spare to `goal`, on the side on which the way
@@ -412,40 +410,40 @@ bool is_relay(const ConvoyRobot& robot, int k) noexcept {
 // relieve.
 static Vec2 past_bodies(const ConvoyRobot& robot, Vec2 goal) noexcept {
   const TreeTable& table = robot.table();
-  const float room_m = wide * robot.params.clearance_m;
+  const float room = wide * robot.params.clearance;
   int first = -1;
   Vec2 side;
   table.members.for_each([&](int k) {
     const Vec2 at = table.position(k);
     const Vec2 off = nearest_on_segment(-at, goal - at);
-    if (!table.alive(k) || norm(off) >= room_m || distance(at, goal) < room_m ||
+    if (!table.alive(k) || norm(off) >= room || distance(at, goal) < room ||
         (first >= 0 && table.range(k) >= table.range(first)))
       return;
     first = k;
-    side = norm(off) > same_spot_m ? unit(off) : left_of(unit(goal));
+    side = norm(off) > same_spot ? unit(off) : left_of(unit(goal));
   });
-  return first < 0 ? goal : table.position(first) + side * (2.0F * room_m);
+  return first < 0 ? goal : table.position(first) + side * (2.0F * room);
 }
 
 // Beside the robot that is relieved, or as it makes room; slower over the last decimetre.
 static bool relief_motion(const ConvoyRobot& robot, Vec2& u) noexcept {
-  constexpr float last_bit_m = 0.1F;
+  constexpr float last_bit = 0.05F;
   Vec2 spot;
   if (robot.power == nullptr || !find_relief_spot(*robot.power, spot)) return false;
-  u = clamped((robot.self.role == Role::spare ? past_bodies(robot, spot) : spot) / last_bit_m, 1.0F);
+  u = clamped((robot.self.role == Role::spare ? past_bodies(robot, spot) : spot) / last_bit, 1.0F);
   return true;
 }
 
 Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const int up = robot.parent >= 0 ? robot.parent : robot.old_parent;
-  constexpr float back_m = 0.02F;  // so near it stands where it saw the other
+  constexpr float back = 0.01F;  // so near it stands where it saw the other
   if (lost_sight(robot, up))
-    return norm(robot.self.corners.seen_from) > back_m ? unit(robot.self.corners.seen_from) : Vec2{};
+    return norm(robot.self.corners.seen_from) > back ? unit(robot.self.corners.seen_from) : Vec2{};
   if (up >= 0 && !robot.is_linked(up)) return bypass(robot, robot.table().position(up));
-  if (up >= 0 && robot.table().range(up) > p.ideal_distance_m) return unit(robot.table().position(up));
+  if (up >= 0 && robot.table().range(up) > p.ideal_distance) return unit(robot.table().position(up));
   if (is_orphan(robot))
-    return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
+    return up >= 0 && robot.table().range(up) > p.safe_range ? unit(robot.table().position(up)) : Vec2{};
   // The first tree takes time to build, and a target may be added in mid-mission: a worker does not go without a tree.
   if (up < 0 && !robot.is_root()) return before_tree(robot);
   if (Vec2 u; relief_motion(robot, u)) return holds_still(robot) ? Vec2{} : u;
@@ -463,64 +461,63 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   if (holds_still(robot)) return {};
   if (Vec2 way; steps_aside(robot, way)) return way + repulsion(robot);
   if (folds(robot))
-    return pushed_off(robot, folding_motion(robot), wide * p.clearance_m) + clear_sight(robot, robot.self.corners);
+    return pushed_off(robot, folding_motion(robot), wide * p.clearance) + clear_sight(robot, robot.self.corners);
   const Vec2 along = robot.self.lead_to != nobody ? lead(robot)
                      : has_arrived(robot)         ? compaction(robot)
                                                   : clamped(tow(robot), 1.0F);
-  return pushed_off(robot, along + tension(robot) + shared_slack(robot), p.corridor_width_m) +
+  return pushed_off(robot, along + tension(robot) + shared_slack(robot), p.corridor_width) +
          clear_sight(robot, robot.self.corners);
 }
 
 Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
-  const float c = p.communication_range_m;
   const ConvoyState& self = robot.self;
   if (Vec2 u; relief_motion(robot, u)) {
     // Pushed back by two robots and the edge between them, it would wait there until the leaver has run down.
-    constexpr float hesitates_s = 8.0F;
-    return self.request_ticks > p.ticks(hesitates_s) ? u : past(robot, u, wide * p.clearance_m);
+    constexpr float hesitates_drives = 0.8F;
+    return self.request_ticks > p.rounds(hesitates_drives) ? u : past(robot, u, wide * p.clearance);
   }
   Vec2 midpoint;
   if (self.spare_state == SpareState::extend_edge && edge_midpoint(robot, self.request, midpoint))
-    return past(robot, bypass(robot, midpoint), wide * p.clearance_m);
+    return past(robot, bypass(robot, midpoint), wide * p.clearance);
   if (const int of = robot.table().find(self.accompanies); of >= 0)
-    return past(robot, companion_motion(robot, of), companion_way_m(robot, of));
+    return past(robot, companion_motion(robot, of), companion_width(robot, of));
   // No robot near has heard the tree for a while: it has gone behind an obstacle.
-  if (self.tree_hops > lost_hops && norm(self.corners.seen_from) > p.arrival_distance_m)
+  if (self.tree_hops > lost_hops && norm(self.corners.seen_from) > p.arrival_distance)
     return bypass(robot, self.corners.seen_from) + repulsion(robot);
   // The root is about to go round a corner, and waits for spares.
   const int root = robot.table().find(self.root.id);
-  if (root >= 0 && robot.corner_of(root).pinned && robot.table().range(root) > p.avoidance_range_m)
-    return pushed_off(robot, bypass(robot, robot.table().position(root)), wide * p.clearance_m);
+  if (root >= 0 && robot.corner_of(root).pinned && robot.table().range(root) > p.avoidance_range)
+    return pushed_off(robot, bypass(robot, robot.table().position(root)), wide * p.clearance);
   // On batteries spares travel all the time: one that a reconstruction has stopped between two robots gets out of
   // there.
-  if (holds_still(robot)) return robot.power != nullptr ? make_way(robot, p.clearance_m) : Vec2{};
+  if (holds_still(robot)) return robot.power != nullptr ? make_way(robot, p.clearance) : Vec2{};
   // A charged robot makes room at the place. One that needs it drives through the crowd: the others step aside.
   if (Vec2 away; robot.power != nullptr && leaves_place(*robot.power, away))
-    return pushed_off(robot, away, p.corridor_width_m);
+    return pushed_off(robot, away, p.corridor_width);
   if (robot.power != nullptr && is_at_place(*robot.power))
-    return repulsion(robot) + make_way(robot, wide * p.clearance_m);
+    return repulsion(robot) + make_way(robot, wide * p.clearance);
   const int k = followed_by(robot);
   const Vec2 reference = k >= 0 ? robot.table().position(k) : Vec2{};
   const float d = norm(reference);
   // Sight can be lost at any distance: the spare follows in good time, and earlier still if a spare leads it.
   const bool led = k >= 0 && robot.table().message(k).role == Role::spare;
-  const float reach_m = (led ? follow_spare : follow_tree) * c;
+  const float reach = led ? follow_spare : follow_tree;
   // A spare under way along a chain may come nearer to lines of sight than one that waits.
-  const float way_m = p.line_of_sight ? wide * p.clearance_m : 0.0F;  // none where robots hide no edges
+  const float width = p.line_of_sight ? wide * p.clearance : 0.0F;  // none where robots hide no edges
   if (robot.power != nullptr && robot.power->power.travels) {
     // If it is there, and hears nobody nearer to the place, that robot hides them: it goes round it.
     const Vec2 way = robot.power->power.way;
-    return past(robot, bypass(robot, norm(way) < p.avoidance_range_m ? left_of(unit(way)) : way), way_m);
+    return past(robot, bypass(robot, norm(way) < p.avoidance_range ? left_of(unit(way)) : way), width);
   }
-  if (self.called && d > p.avoidance_range_m) return past(robot, bypass(robot, reference), way_m);
-  if (d > reach_m) return pushed_off(robot, bypass(robot, reference), wide * p.clearance_m);
+  if (self.called && d > p.avoidance_range) return past(robot, bypass(robot, reference), width);
+  if (d > reach) return pushed_off(robot, bypass(robot, reference), wide * p.clearance);
   // It is there, but cannot hear the edge that calls, hidden or too far: it goes round the robot that passed on the
   // call. Not where many edges meet: spares wait on the far side, too, and it would only cross lines of sight.
   constexpr int few_children = 3;
   const bool roomy = self.corners.landmarks.size > 0 || (k >= 0 && robot.convoy_of(k).child_count <= few_children);
-  if (self.called && roomy && d > 0.0F) return pushed_off(robot, bypass(robot, way_round(robot, k)), way_m);
-  return repulsion(robot) + make_way(robot, p.corridor_width_m);
+  if (self.called && roomy && d > 0.0F) return pushed_off(robot, bypass(robot, way_round(robot, k)), width);
+  return repulsion(robot) + make_way(robot, p.corridor_width);
 }
 
 }  // namespace banyan

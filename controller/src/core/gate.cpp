@@ -1,49 +1,62 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/controller/core/gate.hpp"
-#include "banyan/controller/core/search.hpp"
 
 #include <algorithm>
 
 namespace banyan {
 
-Gate::Gate(const Senses& senses, const Platform& platform) noexcept : senses_(senses) {
-  const float limit_m = farthest_ranges * platform.communication_range_m;
-  const Odometry& moved = senses.odometry;
-  if (!is_within({moved.forward_m, moved.sideways_m}, limit_m) || !(std::fabs(moved.turn_rad) <= largest_turn_rad)) {
-    senses_.odometry = {};
+Gate::Gate(const Senses& senses, const Platform& platform) noexcept
+    : per_metre_(1.0F / platform.communication_range_m),
+      moved_(Vec2{senses.odometry.forward_m, senses.odometry.sideways_m} * per_metre_),
+      turn_rad_(senses.odometry.turn_rad),
+      elapsed_s_(senses.elapsed_s),
+      orders_(senses.orders),
+      charge_(senses.charge) {
+  if (!is_within(moved_, farthest_ranges) || !(std::fabs(turn_rad_) <= largest_turn_rad)) {
+    moved_ = {};
+    turn_rad_ = 0.0F;
     ++rejected_;
   }
-  if (senses.orders.target && !is_within(*senses.orders.target, farthest_target_m)) {
-    senses_.orders.target.reset();
+  if (orders_.target) {
+    *orders_.target *= per_metre_;
+    if (!is_within(*orders_.target, farthest_place)) {
+      orders_.target.reset();
+      ++rejected_;
+    }
+  }
+  if (charge_ && !charge_->is_possible()) {
+    charge_.reset();
     ++rejected_;
   }
-  senses_.for_each_reading([this](auto& reading) {
-    if (!reading || reading->is_possible()) return;
-    reading.reset();
-    ++rejected_;
-  });
-  if (senses.elapsed_s >= 0.0F && senses.elapsed_s <= longest_step_s) {
-    elapsed_ticks_ = std::max(1, platform.ticks(senses.elapsed_s));
+  const float ticks = elapsed_s_ / platform.tick_s;
+  if (ticks >= 0.0F && ticks <= longest_step_ticks) {
+    elapsed_ticks_ = std::max(1, static_cast<int>(ticks + 0.5F));
   } else {
-    senses_.elapsed_s = 0.0F;
+    elapsed_s_ = 0.0F;
     ++rejected_;
   }
-  admit_obstacles(limit_m);
+  if (!(elapsed_s_ > 0.0F)) elapsed_s_ = platform.tick_s;
+  if (!senses.obstacles.empty()) admit_obstacles(senses.obstacles);
 }
 
-// Valid readings stay where they are, unless some of them must be removed. Of more than there is room for the first are
-// kept; the others are not rejected, since a good sensor may well see so many.
-void Gate::admit_obstacles(float limit_m) noexcept {
-  const auto passes = [&](Vec2 o) { return is_within(o, limit_m); };
-  const std::span<const Vec2> all = senses_.obstacles;
-  if (all.size() <= most_obstacles && banyan::all_of(all, passes)) return;
-  std::array<Vec2, most_obstacles>& passed = obstacles_.emplace();
+// Of more than there is room for the first are kept; the others are not rejected, since a good sensor may well see so
+// many.
+void Gate::admit_obstacles(std::span<const Vec2> obstacles) noexcept {
+  std::array<Vec2, most_obstacles>& passed = room_.emplace();
   std::size_t kept = 0;
-  for (const Vec2 o : all) {
-    if (!passes(o)) ++rejected_;
-    else if (kept < most_obstacles) passed[kept++] = o;
+  for (const Vec2 o : obstacles) {
+    const Vec2 point = o * per_metre_;
+    if (!is_within(point, farthest_ranges)) ++rejected_;
+    else if (kept < most_obstacles) passed[kept++] = point;
   }
-  senses_.obstacles = std::span<const Vec2>(passed).first(kept);
+  obstacles_ = std::span<const Vec2>(passed).first(kept);
+}
+
+// What is left of the odometry, which is in the frame at the last step, is turned into the frame of the packet.
+Vec2 Gate::carried_to_now(Vec2 position, float age_s) const noexcept {
+  const float share = std::min(age_s / elapsed_s_, 1.0F);
+  const Vec2 shift = rotate_back(unit_vector(turn_rad_ * (1.0F - share)), moved_ * share);
+  return Carry(shift, turn_rad_ * share).point(position);
 }
 
 }  // namespace banyan

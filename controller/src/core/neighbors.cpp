@@ -19,7 +19,7 @@ void Neighbors::prefetch(std::size_t entries) const noexcept {
   fetch(by_id_);
   fetch(measurements_);
   fetch(ages_);
-  fetch(ranges_m_);
+  fetch(ranges_);
   fetch(positions_);
 }
 
@@ -66,8 +66,8 @@ void Neighbors::leave(int k) noexcept {
   std::move(at + 1, end, at);
 }
 
-void Neighbors::begin(int elapsed_ticks, float way_m) noexcept {
-  filter_.begin(way_m);
+void Neighbors::begin(int elapsed_ticks, float way) noexcept {
+  filter_.begin(way);
   watched_ = static_cast<std::int16_t>(!filter_.is_on() ? 0 : filter_.has_seen_noise() ? neighbor_capacity : sentries);
   elapsed_ticks_ = static_cast<std::int16_t>(std::min(elapsed_ticks, INT16_MAX));
   next_rank_ = 0;
@@ -107,7 +107,7 @@ int Neighbors::evict(Vec2 position, bool must, FunctionRef<bool(int)> ties) noex
   int farthest = -1;
   for (int j = 0; j < size_; ++j)
     if (!ties(j) && (farthest < 0 || range(j) > range(farthest))) farthest = j;
-  if (farthest < 0 || (!must && norm(position) + filter_.spread_m() >= range(farthest))) return -1;
+  if (farthest < 0 || (!must && norm(position) + filter_.spread() >= range(farthest))) return -1;
   leave(farthest);
   return farthest;
 }
@@ -125,7 +125,7 @@ int Neighbors::remove_next(int from, const Carry& carry, int liveness_ticks, Fun
     }
     const Vec2 position = carry.point(positions_[k]);
     positions_[k] = position;
-    ranges_m_[k] = norm(position) + filter_.spread_m();
+    ranges_[k] = norm(position) + filter_.spread();
   }
   return -1;
 }
@@ -138,7 +138,7 @@ void Neighbors::remove(int k) noexcept {
   close_gap(ids_, k, size_);
   close_gap(measurements_, k, size_);
   close_gap(ages_, k, size_);
-  close_gap(ranges_m_, k, size_);
+  close_gap(ranges_, k, size_);
   close_gap(positions_, k, size_);
   all_.set(--size_, false);
 }

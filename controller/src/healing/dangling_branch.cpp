@@ -26,10 +26,10 @@ void watch_children(HealingRobot& robot) noexcept {
   const auto lost = first_of(robot.children, leaves);
   if (lost != robot.children.end()) {
     self.lost_child = table.position(*lost);
-    self.dangling_ticks = static_cast<std::uint16_t>(robot.params.ticks(robot.params.pursue_for_s));
+    self.dangling_ticks = static_cast<std::uint16_t>(robot.params.rounds(robot.params.pursue_for_drives));
   } else if (self.dangling_ticks > 0) {
     // In a large tree it waits there for the branch: if it became a spare, the chain above it would dissolve.
-    const bool done = !meets && norm(self.lost_child) < near_enough * robot.params.communication_range_m;
+    const bool done = !meets && norm(self.lost_child) < near_enough;
     self.dangling_ticks =
         done ? std::uint16_t{0} : static_cast<std::uint16_t>(std::max(self.dangling_ticks - robot.elapsed_ticks, 0));
   }

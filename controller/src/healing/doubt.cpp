@@ -7,15 +7,15 @@
 namespace banyan {
 namespace {
 
-constexpr float hesitate_s = 2.5F;      // beyond I
-constexpr float witness_s = 2.0F;       // of the time for an answer
+constexpr int hesitate_ticks = 25;      // beyond I
+constexpr int witness_ticks = 20;       // of the time for an answer
 constexpr float well_in_range = 0.85F;  // of C: a worker farther away may only have gone out of range
 
 // I heard the worker, and its parent is gone, too, or has more workers below than it can remember.
 bool takes_charge(const HealingRobot& robot, const Task& task) noexcept {
   const TreeTable& table = robot.table();
   const int holder = table.find(task.holder);
-  if (holder < 0 || !fades(robot, holder) || table.range(holder) > well_in_range * robot.params.communication_range_m)
+  if (holder < 0 || !fades(robot, holder) || table.range(holder) > well_in_range)
     return false;
   const int parent = table.find(up_of(table.message(holder)));
   return parent < 0 || fades(robot, parent) || table.message(parent).subtree_workers > task_capacity;
@@ -26,7 +26,7 @@ bool takes_charge(const HealingRobot& robot, const Task& task) noexcept {
 bool has_witnessed(const HealingRobot& robot, const Task& task) noexcept {
   const int holder = robot.table().find(task.holder);
   return holder >= 0 && robot.tie_ticks == 0 && task.reached && fades(robot, holder) &&
-         robot.table().range(holder) <= longest_link * robot.params.communication_range_m &&
+         robot.table().range(holder) <= longest_link &&
          is_in_the_clear(robot, holder);
 }
 
@@ -57,14 +57,14 @@ void doubt(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   if (!self.forgets) return;
   // A robot may stand in between for a moment.
-  const int doubt_ticks = robot.liveness_ticks() + robot.params.ticks(hesitate_s);
+  const int doubt_ticks = robot.liveness_ticks() + hesitate_ticks;
   for (Task& task : self.known_tasks()) {
     int child = robot.table().find(task.via);
     if (has_left(robot, child)) task.via = nobody;
     if (task.silent || task.holder == nobody || task.age_ticks <= fading_ticks(robot)) continue;
     if (has_witnessed(robot, task)) {
       raise_doubt(robot, task);
-      task.age_ticks = static_cast<std::uint16_t>(task.age_ticks + robot.params.ticks(witness_s));
+      task.age_ticks = static_cast<std::uint16_t>(task.age_ticks + witness_ticks);
       continue;
     }
     if (task.via == nobody && takes_charge(robot, task)) task.via = task.holder;

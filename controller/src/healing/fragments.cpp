@@ -28,7 +28,7 @@ bool hear_token(HealingRobot& robot, const HealingMessage& m) noexcept {
 int barrier_patience_ticks(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   if (self.phase != Phase::start_tree && !robot.is_root()) return 0;
-  const int least = robot.params.ticks(robot.params.barrier_timeout_s);
+  const int least = whole(robot.params.barrier_rounds);
   if (self.phase == Phase::select_parent) return std::max<int>(least, self.flood_ticks);
   if (self.phase != Phase::start_tree) return least;
   if (self.phase_ticks <= robot.elapsed_ticks) self.flood_counted = 0;

@@ -81,8 +81,8 @@ int gossip(const HealingRobot& robot, HealingMessage& m) noexcept {
   const Vec2 addressee = robot.table().position(k);
   m.told = robot.table().id(k);
   m.root_told = self.root_known && self.heart == self.root;
-  if (m.root_told) write_in_edge_frame(self.root_at - addressee, addressee, per_cm, m.root_x_cm, m.root_y_cm);
-  if (task != nullptr) write_in_edge_frame(task->target - addressee, addressee, per_cm, m.task_x_cm, m.task_y_cm);
+  if (m.root_told) write_in_edge_frame(self.root_at - addressee, addressee, m.root_x, m.root_y);
+  if (task != nullptr) write_in_edge_frame(task->target - addressee, addressee, m.task_x, m.task_y);
   return topic.task;
 }
 

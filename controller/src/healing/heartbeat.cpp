@@ -53,7 +53,7 @@ void locate_root(HealingRobot& robot) noexcept {
     if (m.told != self.id || !m.root_told || ahead_by(m.heartbeat, self.heartbeat) < -stale_ticks) continue;
     if (self.root_known && self.silence_ticks > robot.liveness_ticks()) continue;
     Vec2 point;
-    if (!robot.read_point(h, m.root_x_cm, m.root_y_cm, point)) continue;
+    if (!robot.read_point(h, m.root_x, m.root_y, point)) continue;
     self.root_at = point;
     self.root_known = true;
   }
@@ -62,22 +62,22 @@ void locate_root(HealingRobot& robot) noexcept {
 // The root's heartbeat has stopped, and I am near where it was.
 bool outlives_root(const HealingRobot& robot) noexcept {
   const HealingParams& p = robot.params;
-  const float away_m = norm(robot.self.root_at);
-  if (away_m > p.claim_radius_m) return false;
-  return robot.self.silence_ticks > 2 * robot.liveness_ticks() + p.ticks(p.claim_after_s + p.claim_spread_s_m * away_m);
+  const float away = norm(robot.self.root_at);
+  if (away > p.claim_radius) return false;
+  return robot.self.silence_ticks > 2 * robot.liveness_ticks() + whole(p.claim_after_rounds + p.claim_spread_rounds * away);
 }
 
 // No root has ever been heard: it died too early. The robot with the smallest id among its neighbours becomes root.
 // Several robots far from each other may claim; one token wins.
 bool misses_first_root(const HealingRobot& robot) noexcept {
-  constexpr float first_root_s = 20.0F;  // by then the first token has travelled 200 hops
+  constexpr int first_root_ticks = 200;  // by then the first token has travelled 200 hops
   // In a thin start where packets get lost, part of the network may have to be fetched first. And among few neighbours,
   // as in a line whose bodies hide all others, the token has one way, on which each burst of loss holds it up.
   constexpr int fetched_later = 3;
   constexpr int few_ways = 4;
   const TreeTable& table = robot.table();
   const bool is_slow = is_thin(robot.self) || table.size() <= few_ways;
-  const int patience_ticks = robot.params.ticks(first_root_s) * (is_slow ? fetched_later : 1);
+  const int patience_ticks = first_root_ticks * (is_slow ? fetched_later : 1);
   if (robot.self.silence_ticks <= patience_ticks || hears_nobody(robot)) return false;
   for (int k = 0; k < table.size(); ++k)
     if (table.alive(k) && table.message(k).role != Role::worker && table.id(k) < robot.self.id) return false;

@@ -27,7 +27,7 @@ constexpr float costs_change_far = 10.0F;  // a hundredth of C
 // every tick gets nowhere. Of links that are too long the shortest is drawn in, however many hops away.
 float cost(const HealingRobot& robot, int k, int hops) noexcept {
   constexpr float strained = 0.85F;  // of C: beyond, the guard slows both ends down
-  const float range = robot.table().range(k) / robot.params.communication_range_m;
+  const float range = robot.table().range(k);
   const bool another = hops >= 0 && robot.table().id(k) != robot.self.hold;
   if (range > longest_link)
     return costs_too_long + costs_length * range + (another ? costs_change_far : 0.0F) +
@@ -82,7 +82,7 @@ void find_hold(HealingRobot& robot) noexcept {
     // Until the flood of a new epoch has arrived, the last epoch's hold will do. A robot with children keeps it until
     // that epoch's tree is dropped: by the new labels a robot that depends on me through them may be ahead.
     const bool relied_on = self.phase < Phase::grow_tree && robot.children.size + robot.old_children.size > 0;
-    if (const bool unlabelled = self.label_cm == unknown_label; unlabelled || relied_on) {
+    if (const bool unlabelled = self.label == unknown_label; unlabelled || relied_on) {
       const int last = table.find(self.hold);
       if (last >= 0 && robot.is_linked(last)) robot.hold = last;
       else if (unlabelled) robot.hold = -1;

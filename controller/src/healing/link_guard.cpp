@@ -13,14 +13,14 @@ namespace {
 // No longer than that, less by how far neighbour k may be from where it was measured. Where packets get lost many in a
 // row it may come back from there, and a robot that does not hear it need not drive to it, only stay. But far away it
 // may be silent because the signal has faded: up to where that is rare it comes nearer.
-void guard_link(const HealingRobot& robot, int k, float longest_m, Guard& guard) noexcept {
+void guard_link(const HealingRobot& robot, int k, float longest, Guard& guard) noexcept {
   constexpr float near = 0.77F;  // of C
   const TreeTable& table = robot.table();
-  const float strayed = strayed_m(robot, k);
-  float limit_m = longest_m - table.spread_m() - strayed;
+  const float strayed = strayed_way(robot, k);
+  float limit = longest - table.spread() - strayed;
   if (robot.has_bursts() && strayed > 0.0F)
-    limit_m = std::max(limit_m, std::min(table.range(k), near * robot.params.communication_range_m) - table.spread_m());
-  guard.add(table.position(k), limit_m, robot.params.guard_rate_per_s);
+    limit = std::max(limit, std::min(table.range(k), near) - table.spread());
+  guard.add(table.position(k), limit, robot.params.guard_rate);
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ void guard_edges(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept
   for_each_tree_neighbor(robot, [&](int k) {
     // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
     if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty()))
-      guard_link(robot, k, robot.params.ideal_distance_m, guard);
+      guard_link(robot, k, robot.params.ideal_distance, guard);
   });
 }
 
@@ -38,8 +38,8 @@ void guard_links(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept
   lets_go = lets_go && !robot.has_bursts();
   const TreeTable& table = robot.table();
   const TreeParams& p = robot.params;
-  const float longest_m = longest_link * p.communication_range_m;
-  const float limited_m = longest_m - 2.0F * p.speed_gain_m_s / p.guard_rate_per_s;  // below it full speed is allowed
+  const float longest = longest_link;
+  const float limited = longest - 2.0F * p.speed_gain / p.guard_rate;  // below it full speed is allowed
   const bool untied = robot.hold < 0 && robot.up() < 0 && !robot.is_root();
   // In a grown tree only robots of its epoch wait for a hold, and those that have not heard of any: others are cut off,
   // or of another fragment.
@@ -57,25 +57,25 @@ void guard_links(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept
   for (const int k : {robot.hold, robot.gap})
     if (k >= 0) rows.set(k, true);
   rows.for_each([&](int k) {
-    if (k == robot.parent || k == robot.old_parent || table.range(k) + strayed_m(robot, k) <= limited_m || !holds_me(k))
+    if (k == robot.parent || k == robot.old_parent || table.range(k) + strayed_way(robot, k) <= limited || !holds_me(k))
       return;
-    guard_link(robot, k, longest_m, guard);
+    guard_link(robot, k, longest, guard);
   });
 }
 
 void push_nobody(const HealingRobot& robot, Guard& guard) noexcept {
-  constexpr float apart = 1.4F;  // of the distance between the wheels: bodies do not touch yet
-  constexpr float near = 2.1F;
+  constexpr float apart = 2.1F;  // of the radius: bodies do not touch yet
+  constexpr float near = 3.15F;
   const TreeTable& table = robot.table();
   const HealingParams& p = robot.params;
   const HealingState& self = robot.self;
-  const float apart_m = apart * p.wheel_distance_m;
+  const float room_apart = apart * p.body_radius;
   const bool all = robot.passes_targets_on || goes_by_memory(self);
   (all ? table.all() : table.members).for_each([&](int k) {
-    if (table.age(k) > 0 || table.range(k) >= near * p.wheel_distance_m) return;
+    if (table.age(k) > 0 || table.range(k) >= near * p.body_radius) return;
     const RobotId serves = self.healing_standings[static_cast<std::size_t>(k)].serves;
     if (!all && (table.message(k).role != Role::worker || serves == table.id(k))) return;
-    guard.add_limit(unit(table.position(k)), std::max(0.0F, table.range(k) - apart_m) * p.guard_rate_per_s);
+    guard.add_limit(unit(table.position(k)), std::max(0.0F, table.range(k) - room_apart) * p.guard_rate);
   });
 }
 

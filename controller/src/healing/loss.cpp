@@ -15,21 +15,20 @@ constexpr int beyond_chance = 2;         // a burst: times as long as a silence 
 
 // So long a living neighbour may be silent by chance.
 int by_chance_ticks(const HealingRobot& robot) noexcept {
-  return std::max<int>(robot.params.ticks(robot.params.liveness_period_s), robot.self.loss_ticks);
+  return std::max<int>(whole(robot.params.liveness_rounds), robot.self.loss_ticks);
 }
 
 bool is_in_reach(const HealingRobot& robot, int k) noexcept {
-  return robot.table().range(k) <= longest_link * robot.params.communication_range_m && is_in_the_clear(robot, k);
+  return robot.table().range(k) <= longest_link && is_in_the_clear(robot, k);
 }
 
 // A neighbour that was heard a tick ago, is in range and in the clear is silent; -1 if there is none. One such
 // neighbour is looked at in a step: where packets get lost, there will soon be another.
 int missed(const HealingRobot& robot) noexcept {
   const TreeTable& table = robot.table();
-  const float range_m = longest_link * robot.params.communication_range_m;
   if (table.missed() == 0) return -1;
   for (int k = 0; k < table.size(); ++k)
-    if (table.age(k) == robot.elapsed_ticks && table.range(k) <= range_m) return is_in_the_clear(robot, k) ? k : -1;
+    if (table.age(k) == robot.elapsed_ticks && table.range(k) <= longest_link) return is_in_the_clear(robot, k) ? k : -1;
   return -1;
 }
 

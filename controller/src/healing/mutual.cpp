@@ -70,14 +70,14 @@ void find_gap(HealingRobot& robot) noexcept {
   // A call is passed on away from the root only: it would never end if two robots called each other.
   const int caller = caller_of(robot);
   self.calls = robot.gap >= 0 || (caller >= 0 && is_ahead(robot, caller) &&
-                                  table.range(caller) > called_to * robot.params.communication_range_m);
+                                  table.range(caller) > called_to);
 }
 
 bool closes_gap(const HealingRobot& robot, Vec2& u) noexcept {
   const int k = robot.gap >= 0 ? robot.gap : caller_of(robot);
   if (k < 0) return false;
-  const float rest_m = (robot.gap >= 0 ? fetched_to : called_to) * robot.params.communication_range_m;
-  const bool rests = starts_wide(robot) || robot.table().range(k) <= rest_m;
+  const float rest = robot.gap >= 0 ? fetched_to : called_to;
+  const bool rests = starts_wide(robot) || robot.table().range(k) <= rest;
   u = rests ? Vec2{} : unit(robot.table().position(k));
   return true;
 }

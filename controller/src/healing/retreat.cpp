@@ -10,12 +10,12 @@
 namespace banyan {
 namespace {
 
-constexpr float regroup_for_s = 40.0F;  // at most, then it waits again
+constexpr float regroup_for_drives = 4.0F;  // at most, then it waits again
 constexpr int lost_ticks = 22;          // an orphan that has found no hold for so long has none in reach
 
 bool is_cut_off(const HealingRobot& robot) noexcept {
   return robot.self.silence_ticks >
-         robot.params.ticks(robot.params.retreat_after_s) + 2 * std::max(robot.liveness_ticks(), robot.tie_ticks);
+         whole(robot.params.retreat_after_rounds) + 2 * std::max(robot.liveness_ticks(), robot.tie_ticks);
 }
 
 // A robot that hears no other keeps none connected and may search: a root left alone or hidden among bodies, or a
@@ -23,7 +23,7 @@ bool is_cut_off(const HealingRobot& robot) noexcept {
 // comes, since after a short radio failure all should be where they were. One that has never heard any waits, too.
 bool is_alone(const HealingRobot& robot) noexcept {
   const HealingState& self = robot.self;
-  return self.silence_ticks > robot.params.ticks(robot.params.regroup_after_s) && self.expected_packets > 0.0F &&
+  return self.silence_ticks > robot.params.rounds(robot.params.regroup_after_drives) && self.expected_packets > 0.0F &&
          hears_nobody(robot);
 }
 
@@ -32,9 +32,8 @@ Vec2 search(const HealingRobot& robot) noexcept {
   constexpr float pitch = 0.08F;   // of C, a turn's growth of the radius over 2 pi: turns are C/2 apart
   constexpr float stride = 0.25F;  // of C: how far ahead it looks for a way past obstacles
   const Vec2 in = robot.self.root_at;
-  const float c = robot.params.communication_range_m;
-  const Vec2 along = Vec2{in.y, -in.x} - unit(in) * (pitch * c);
-  return bypass(robot, (norm(in) > same_spot_m ? unit(along) : Vec2{1.0F, 0.0F}) * (stride * c));
+  const Vec2 along = Vec2{in.y, -in.x} - unit(in) * pitch;
+  return bypass(robot, (norm(in) > same_spot ? unit(along) : Vec2{1.0F, 0.0F}) * stride);
 }
 
 // The nearest neighbour that knows a way to the rooted tree and is no child of mine; -1 if there is none.
@@ -53,14 +52,14 @@ int way_home(const HealingRobot& robot, bool workers_relay) noexcept {
 bool seeks_parent(const HealingRobot& robot) noexcept {
   const int k = robot.parent;
   return robot.meets_at_the_dead && k >= 0 && !robot.table().alive(k) && robot.self.phase == Phase::grow_tree &&
-         robot.table().age(k) <= robot.params.ticks(robot.params.pursue_for_s);
+         robot.table().age(k) <= robot.params.rounds(robot.params.pursue_for_drives);
 }
 
 // Beside that place, on the side of the root: straight on, the dead body would hide the two robots from each other.
 Vec2 beside_parent(const HealingRobot& robot) noexcept {
   constexpr float beside_body = 0.4F;  // of C
   const Vec2 at = robot.table().position(robot.parent);
-  const Vec2 left = left_of(unit(at)) * (beside_body * robot.params.communication_range_m);
+  const Vec2 left = left_of(unit(at)) * beside_body;
   return cross(at, robot.self.root_at) < 0.0F ? at - left : at + left;
 }
 
@@ -70,7 +69,7 @@ bool is_left_waiting(const HealingRobot& robot) noexcept {
   const HealingState& self = robot.self;
   const HealingParams& p = robot.params;
   return p.heals() && self.is_worker && self.root_known && self.parent != nobody && self.parent != self.root.id &&
-         self.want_m > p.arrival_distance_m && self.unserved_ticks > p.ticks(p.regroup_after_s);
+         self.want > p.arrival_distance && self.unserved_ticks > p.rounds(p.regroup_after_drives);
 }
 
 // For a worker that still makes progress, however slowly, spares are on their way.
@@ -80,8 +79,8 @@ void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept {
     self.unserved_ticks = 0;
     return;
   }
-  const int after_ticks = robot.params.ticks(robot.params.regroup_after_s);
-  if (self.unserved_ticks >= robot.params.ticks(robot.params.regroup_after_s + regroup_for_s)) self.unserved_ticks = 0;
+  const int after_ticks = robot.params.rounds(robot.params.regroup_after_drives);
+  if (self.unserved_ticks >= robot.params.rounds(robot.params.regroup_after_drives + regroup_for_drives)) self.unserved_ticks = 0;
   else if (regroups || self.unserved_ticks < after_ticks || self.stalled_ticks >= after_ticks)
     robot.add_elapsed(self.unserved_ticks);
 }
@@ -101,7 +100,7 @@ Vec2 retreat_motion(const HealingRobot& robot, bool regroups, bool workers_relay
   const Vec2 goal = seeks_parent(robot) ? beside_parent(robot)
                     : k >= 0            ? robot.table().position(k)
                                         : robot.self.root_at;
-  if (norm(goal) < near_enough * robot.params.communication_range_m) return avoidance(robot);
+  if (norm(goal) < near_enough) return avoidance(robot);
   return bypass(robot, goal) + avoidance(robot);
 }
 

@@ -11,7 +11,7 @@ namespace {
 constexpr int takeover_beats = 60;          // a successor's count starts so far ahead of the news under way
 constexpr int rival_beats = 30;             // a count farther behind mine is that of a dead worker
 constexpr std::uint8_t pass_on_ticks = 40;  // how long news has priority
-constexpr float second_try_s = 40.0F;
+constexpr float second_try_drives = 4.0F;
 constexpr float news_hop = 0.7F;  // of C
 constexpr int per_tick = 16;      // units of news_gap
 constexpr int gap_memory = 64;    // pieces of news
@@ -85,8 +85,8 @@ bool is_too_far_to_tell(const HealingRobot& robot, RobotId sender, Vec2 told, Ve
   const TreeTable& table = robot.table();
   if (!table.filter().has_seen_noise()) return false;
   const int k = table.find(sender);
-  const float near_m = std::max(beside_target * robot.params.communication_range_m, norm(remembered));
-  return k < 0 || distance(told, table.position(k)) > near_m;
+  const float near = std::max(beside_target, norm(remembered));
+  return k < 0 || distance(told, table.position(k)) > near;
 }
 
 // Where the target is, as told by a robot about as near to its worker as I am. If the worker is silent, or itself goes
@@ -207,7 +207,7 @@ void hear_of_tasks(HealingRobot& robot) noexcept {
         !is_news(m.task_beat, task->beat, task->age_ticks) && (!self.is_worker || self.serves != m.task_serves))
       continue;
     Vec2 target;
-    const bool told = m.told == self.id && robot.read_point(h, m.task_x_cm, m.task_y_cm, target);
+    const bool told = m.told == self.id && robot.read_point(h, m.task_x, m.task_y, target);
     hear_of_task(robot, m.id, news_in(robot, m), told ? &target : nullptr);
   }
 }
@@ -221,7 +221,7 @@ void grow_older(HealingRobot& robot) noexcept {
 
 // Whether I am at the target.
 bool is_there(const HealingRobot& robot, const Task& task) noexcept {
-  return !task.unlocated && norm(task.target) <= robot.params.arrival_distance_m;
+  return !task.unlocated && norm(task.target) <= robot.params.arrival_distance;
 }
 
 // My own target. One that the mission has taken from me is given up, and all robots are to know.
@@ -261,9 +261,9 @@ void take_over(HealingRobot& robot, Task& task) noexcept {
 // turn: on average half of them before this one. A robot without a label waits longest, until it has a tree.
 int way_of_news_ticks(const HealingRobot& robot, const Task& task) noexcept {
   const HealingState& self = robot.self;
-  const float in_m = self.root_known ? distance(self.root_at, task.target) : 0.0F;
-  const float out_m = static_cast<float>(self.label_cm) * 0.01F;
-  return static_cast<int>((in_m + out_m) / (news_hop * robot.params.communication_range_m) *
+  const float in = self.root_known ? distance(self.root_at, task.target) : 0.0F;
+  const float out = from_fixed(self.label);
+  return static_cast<int>((in + out) / news_hop *
                           static_cast<float>(self.task_count));
 }
 
@@ -273,8 +273,8 @@ int way_of_answer_ticks(const HealingRobot& robot, const Task& task) noexcept {
   constexpr float hop = 0.5F;  // of C
   const HealingState& self = robot.self;
   const int urgent = count_of(self.known_tasks(), is_urgent);
-  const float hops = norm(task.target) / (hop * robot.params.communication_range_m);
-  const int spread_ticks = robot.params.ticks(robot.params.succession_spread_s_m * norm(task.target));
+  const float hops = norm(task.target) / hop;
+  const int spread_ticks = whole(robot.params.succession_spread_rounds * norm(task.target));
   return std::max(0, static_cast<int>(hops * 2.0F * static_cast<float>(urgent)) - spread_ticks);
 }
 
@@ -288,10 +288,10 @@ void succeed(HealingRobot& robot) noexcept {
   for (Task& task : self.known_tasks()) {
     if (task.unlocated || task.holder == nobody || task.age_ticks <= least_ticks || (self.forgets && !task.silent))
       continue;
-    const float again_s = task.gave_up ? second_try_s : 0.0F;  // others first
+    const int again_ticks = task.gave_up ? p.rounds(second_try_drives) : 0;  // others first
     const int way_ticks = self.forgets ? way_of_answer_ticks(robot, task) : way_of_news_ticks(robot, task);
     const int patience_ticks =
-        least_ticks + way_ticks + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target) + again_s);
+        least_ticks + way_ticks + again_ticks + whole(p.succession_after_rounds + p.succession_spread_rounds * norm(task.target));
     const int rare_ticks = self.forgets ? 0 : gap_patience * self.news_gap / per_tick;  // doubt has waited already
     if (task.age_ticks > std::max(patience_ticks, rare_ticks)) return take_over(robot, task);
   }

@@ -18,12 +18,12 @@ Concern concern_of(const HealingState& self, const Task& task) noexcept {
 
 namespace {
 
-constexpr float nowhere_m = 1e9F;
+constexpr float nowhere = 1e9F;
 
 // Decides between tasks of equal concern. Of doubts the nearer ones, since there I may be the successor. Of workers
 // in no robot's charge each robot prefers different ones, so that of many in one place each is known to some robot.
 float liking(const HealingState& self, Concern concern, RobotId serves, const Vec2* target) noexcept {
-  if (concern != Concern::none) return target != nullptr ? -norm(*target) : -nowhere_m;
+  if (concern != Concern::none) return target != nullptr ? -norm(*target) : -nowhere;
   return static_cast<float>(static_cast<std::uint16_t>((serves ^ (self.id * 0x9E37U)) * 0x6A2DU));
 }
 

@@ -14,7 +14,7 @@ bool has_few_far_away(const HealingRobot& robot) noexcept {
   constexpr int few = 4;
   constexpr float apart = 0.4F;  // of C: so few in a crowd are nearer
   const TreeTable& table = robot.table();
-  return table.size() > 0 && table.size() <= few && table.range(0) > apart * robot.params.communication_range_m;
+  return table.size() > 0 && table.size() <= few && table.range(0) > apart;
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ bool starts_wide(const HealingRobot& robot) noexcept {
   constexpr float wide_link = 0.8F;  // of C: it may break in the first seconds
   if (!starts_thin(robot.self) && !may_start_thin(robot)) return false;
   const TreeTable& table = robot.table();
-  return table.size() == 0 || table.range(0) > wide_link * robot.params.communication_range_m;
+  return table.size() == 0 || table.range(0) > wide_link;
 }
 
 // Not inlined: it is for the first seconds only (and the firmware is smaller).
@@ -50,7 +50,7 @@ bool starts_wide(const HealingRobot& robot) noexcept {
   if (self.missed_in_the_clear + self.usual_silence + self.burst_ticks == 0) return begins && thin;
   const bool at_end = self.neighbors_at_start == 1 && size <= 1 && self.turn < end_ticks;
   if (!thin || !(begins || at_end)) return false;
-  if (size == 1 && table.range(0) < stretched * robot.params.communication_range_m) u = -table.position(0);
+  if (size == 1 && table.range(0) < stretched) u = -table.position(0);
   return true;
 }
 

@@ -8,7 +8,7 @@
 namespace banyan {
 namespace {
 
-constexpr float target_moved_m = 0.3F;  // in one step: progress counts from the start again
+constexpr float target_moved = 0.15F;  // in one step: progress counts from the start again
 constexpr float straying = 0.2F;        // of v
 
 }  // namespace
@@ -46,10 +46,10 @@ void follow_orders(HealingRobot& robot, const Orders& orders) noexcept {
   }
   if (!orders.sent) self.target_known = false;
   if (orders.target) {
-    const float off_m = self.target_known ? distance(*orders.target, self.target) : 0.0F;
-    if (off_m > target_moved_m) self.progress = {};
+    const float off = self.target_known ? distance(*orders.target, self.target) : 0.0F;
+    if (off > target_moved) self.progress = {};
     robot.target_strays =
-        off_m > straying * robot.params.wheel_limit_m_s * robot.params.tick_s * static_cast<float>(robot.elapsed_ticks);
+        off > straying * robot.params.way_in_a_round() * static_cast<float>(robot.elapsed_ticks);
     self.target = *orders.target;
     self.target_known = true;
   }
@@ -79,7 +79,7 @@ void begin_tick(HealingRobot& robot, const Inputs<Heard>& inputs) noexcept {
   }
   forget_silent(
       robot, [&](int k) { return may_be_tied(robot, k); }, [&](int k, int size) { close_gap(kept, k, size); });
-  follow_orders(robot, inputs.senses().orders);
+  follow_orders(robot, inputs.orders());
 }
 
 int write_healing(const HealingRobot& robot, HealingMessage& m) noexcept {

@@ -9,14 +9,14 @@
 namespace banyan {
 
 bool is_in_the_clear(const HealingRobot& robot, int k) noexcept {
-  constexpr float bodies = 2.0F;  // of the distance between the wheels: a body that hides it may have moved since
+  constexpr float bodies = 3.0F;  // of the radius: a body that hides it may have moved since
   const TreeParams& p = robot.params;
   const TreeTable& table = robot.table();
   if (!p.line_of_sight) return true;
   if (!robot.obstacles.empty()) return false;
   const Vec2 there = table.position(k);
   for (int j = 0; j < table.size(); ++j)
-    if (j != k && distance_to_segment(table.position(j), Vec2{}, there) < bodies * p.wheel_distance_m) return false;
+    if (j != k && distance_to_segment(table.position(j), Vec2{}, there) < bodies * p.body_radius) return false;
   return true;
 }
 
@@ -49,7 +49,7 @@ int missed_tie(const HealingRobot& robot) noexcept {
   });
 }
 
-float strayed_m(const HealingRobot& robot, int k) noexcept {
+float strayed_way(const HealingRobot& robot, int k) noexcept {
   constexpr int usual_ticks = 2;  // for so long a neighbour is silent now and then
   constexpr int at_most_ticks = 30;
   const int ticks = robot.table().age(k) - usual_ticks;
@@ -57,7 +57,7 @@ float strayed_m(const HealingRobot& robot, int k) noexcept {
   if (robot.self.phase == Phase::init) return 0.0F;  // nobody near has set out, and beyond it others may hear me
   if ((robot.table().alive(k) && !robot.has_bursts()) || !is_in_the_clear(robot, k)) return 0.0F;
   const TreeParams& p = robot.params;
-  return p.speed_gain_m_s * p.tick_s * static_cast<float>(robot.has_bursts() ? ticks : std::min(ticks, at_most_ticks));
+  return p.speed_gain * p.way_in_a_round() * static_cast<float>(robot.has_bursts() ? ticks : std::min(ticks, at_most_ticks));
 }
 
 }  // namespace banyan

@@ -9,11 +9,11 @@
 namespace banyan {
 namespace {
 
-constexpr float keep_m = 0.04F;           // between body and obstacle while driving along it
-constexpr float same_obstacle_m = 0.20F;  // the contact point moves on by less in a tick
-constexpr float progress_m = 0.05F;
+constexpr float keep = 0.02F;           // between body and obstacle while driving along it
+constexpr float same_obstacle = 0.10F;  // the contact point moves on by less in a tick
+constexpr float progress = 0.025F;
 constexpr float first_span = 0.35F;  // of C
-constexpr float goal_moved_m = 0.30F;
+constexpr float goal_moved = 0.15F;
 
 // ---- One obstacle point: which directions it leaves free ----
 
@@ -21,14 +21,14 @@ constexpr float goal_moved_m = 0.30F;
 // obstacle if it is near, towards it if there is room.
 float allowed_cosine(const TreeRobot& robot, float d) noexcept {
   constexpr float steers_off = 0.5F;  // at 30 degrees from an obstacle that it touches
-  const float gap = d - body_m(robot);
-  return std::clamp((gap - keep_m) / (near_m - keep_m), -steers_off, 1.0F);
+  const float gap = d - robot.params.body_radius;
+  return std::clamp((gap - keep) / (obstacle_near - keep), -steers_off, 1.0F);
 }
 
 bool is_blocked(const TreeRobot& robot, Vec2 direction, Vec2 obstacle) noexcept {
   constexpr float rounding = 1e-3F;  // what sweep() finds is free
   const float d = norm(obstacle);
-  return d < body_m(robot) + near_m && dot(direction, obstacle) > (allowed_cosine(robot, d) + rounding) * d;
+  return d < robot.params.body_radius + obstacle_near && dot(direction, obstacle) > (allowed_cosine(robot, d) + rounding) * d;
 }
 
 // Index of the first obstacle in the way, -1 if the direction is free.
@@ -71,11 +71,11 @@ void begin(const TreeRobot& robot, Detour& detour, Vec2 goal, Vec2 contact) noex
   detour.contact = contact;
   // Back where the last detour began, and no nearer to the goal: continue that one, and end it less easily.
   // Otherwise the robot would alternate for ever between the two ends of a pocket, or of a row of robots.
-  const float before_m = distance(detour.origin, detour.goal);
-  if (detour.last_side != 0 && norm(goal) > before_m - progress_m) {
+  const float before = distance(detour.origin, detour.goal);
+  if (detour.last_side != 0 && norm(goal) > before - progress) {
     detour.side = detour.last_side;
     detour.again = true;
-    detour.leave_m = before_m;
+    detour.leave = before;
     return;
   }
   const Vec2 to_goal = unit(goal);
@@ -87,19 +87,19 @@ void begin(const TreeRobot& robot, Detour& detour, Vec2 goal, Vec2 contact) noex
   detour.again = false;
   detour.origin = {};
   detour.goal = goal;
-  detour.leave_m = norm(goal);
-  detour.span_m = first_span * robot.params.communication_range_m;
+  detour.leave = norm(goal);
+  detour.span = first_span;
 }
 
 // The point of the obstacle that is being followed; the null vector if it is out of sight.
 Vec2 followed(const TreeRobot& robot, const Detour& detour) noexcept {
   Vec2 best;
-  float best_m = same_obstacle_m;
+  float best_length = same_obstacle;
   for (const Vec2 o : robot.obstacles) {
     const float d = distance(o, detour.contact);
-    if (d >= best_m) continue;
+    if (d >= best_length) continue;
     best = o;
-    best_m = d;
+    best_length = d;
   }
   return best;
 }
@@ -113,14 +113,14 @@ void carry_detour(Detour& detour, const Carry& carry) noexcept {
   constexpr float allowance_again = 0.025F;
   if (detour.side == 0 && detour.last_side == 0) return;
   for (Vec2* v : {&detour.contact, &detour.origin, &detour.goal}) *v = carry.point(*v);
-  detour.leave_m += (detour.again ? allowance_again : allowance) * norm(carry.shift);
+  detour.leave += (detour.again ? allowance_again : allowance) * norm(carry.shift);
 }
 
 Vec2 bypass(const TreeRobot& robot, Detour& detour, Vec2 goal) noexcept {
   const Vec2 straight = unit(goal);
   // It has left the area that it searched, or has another goal.
   if (detour.last_side != 0 && detour.side == 0 &&
-      (norm(detour.origin) > detour.span_m || distance(goal, detour.goal) > goal_moved_m))
+      (norm(detour.origin) > detour.span || distance(goal, detour.goal) > goal_moved))
     detour = {};
   if (robot.obstacles.empty()) {
     end(detour);
@@ -129,20 +129,20 @@ Vec2 bypass(const TreeRobot& robot, Detour& detour, Vec2 goal) noexcept {
   const int blocking = find_blocking(robot, straight);
   Vec2 contact = detour.side != 0 ? followed(robot, detour) : Vec2{};
   if (detour.side != 0) {
-    if (distance(goal, detour.goal) > goal_moved_m) {  // another goal, or one that moves
+    if (distance(goal, detour.goal) > goal_moved) {  // another goal, or one that moves
       detour.goal = goal;
-      detour.leave_m = norm(goal);
+      detour.leave = norm(goal);
     }
-    const bool done = blocking < 0 && norm(goal) < detour.leave_m - progress_m;
+    const bool done = blocking < 0 && norm(goal) < detour.leave - progress;
     if (done || contact == Vec2{}) end(detour);
   }
   if (detour.side == 0) {
     if (blocking < 0) return straight;
     contact = robot.obstacles[static_cast<std::size_t>(blocking)];
     begin(robot, detour, goal, contact);
-  } else if (norm(detour.origin) > detour.span_m) {
+  } else if (norm(detour.origin) > detour.span) {
     detour.side = static_cast<std::int8_t>(-detour.side);
-    detour.span_m *= 2.0F;
+    detour.span *= 2.0F;
   }
   const FreeCourse course = sweep(robot, contact, detour.side);
   detour.contact = course.contact;
@@ -152,7 +152,7 @@ Vec2 bypass(const TreeRobot& robot, Detour& detour, Vec2 goal) noexcept {
 void keep_off(const TreeRobot& robot, Guard& guard) noexcept {
   for (const Vec2 o : robot.obstacles) {
     const float d = norm(o);
-    if (d > 0.0F) guard.add_limit(o / d, (d - body_m(robot) - 0.5F * keep_m) * robot.params.guard_rate_per_s);
+    if (d > 0.0F) guard.add_limit(o / d, (d - robot.params.body_radius - 0.5F * keep) * robot.params.guard_rate);
   }
 }
 

@@ -15,12 +15,12 @@
 namespace banyan {
 namespace {
 
-constexpr float sight_margin_m = 0.03F;  // own motion brings no line of sight nearer to a corner than this
-constexpr float sight_width_m = 0.12F;   // robots make room for lines nearer to a corner than this
-constexpr float hinge_width_m = 0.30F;   // the parent is told of a corner so near to the edge
-constexpr float pin_width_m = 0.06F;
-constexpr float pin_shortest_m = 0.30F;  // a parent nearer than this need not come up
-constexpr float spacing_m = 0.06F;       // between remembered points
+constexpr float sight_margin = 0.015F;  // C: own motion brings no line of sight nearer to a corner than this
+constexpr float sight_width = 0.06F;   // robots make room for lines nearer to a corner than this
+constexpr float hinge_width = 0.15F;   // the parent is told of a corner so near to the edge
+constexpr float pin_width = 0.03F;
+constexpr float pin_shortest = 0.15F;  // a parent nearer than this need not come up
+constexpr float spacing = 0.03F;       // between remembered points
 constexpr float least_lever = 0.1F;      // with less, my motion hardly moves the line there;
 // But the body of a former parent lies beside the robot that is the parent now.
 constexpr float least_lever_body = 0.02F;
@@ -35,7 +35,7 @@ template <class Visit> void for_each_obstacle(const TreeRobot& robot, const Corn
     const Vec2& o = k < sensed   ? robot.obstacles[k]
                     : k < points ? corners.landmarks.points[k - sensed]
                                  : corners.bodies.centers[k - points];
-    visit(o, k < points ? 0.0F : body_m(robot));
+    visit(o, k < points ? 0.0F : robot.params.body_radius);
   }
 }
 
@@ -44,7 +44,7 @@ template <class Visit> void for_each_obstacle(const TreeRobot& robot, const Corn
 // An obstacle point beside the segment from me to a neighbour.
 struct Threat {
   Vec2 towards;    // unit, from the segment to the point
-  float across_m;  // the distance of its surface from the segment
+  float room;  // the distance of its surface from the segment
   float lever;     // how far the segment moves there when I move by 1
   bool is_body;    // not a point of an obstacle
 };
@@ -57,9 +57,9 @@ void for_each_threat(const TreeRobot& robot, const Corners& corners, Vec2 neighb
   for_each_obstacle(robot, corners, [&](Vec2 o, float r) {
     const float a = dot(along, o);
     const float across = cross(along, o);
-    const float room_m = std::max(std::abs(across) - r, 0.0F);
-    if (a <= 0.0F || a >= d || room_m >= sight_width_m) return;
-    visit(Threat{left_of(along) * (across < 0.0F ? -1.0F : 1.0F), room_m, 1.0F - a / d, r > 0.0F});
+    const float room = std::max(std::abs(across) - r, 0.0F);
+    if (a <= 0.0F || a >= d || room >= sight_width) return;
+    visit(Threat{left_of(along) * (across < 0.0F ? -1.0F : 1.0F), room, 1.0F - a / d, r > 0.0F});
   });
 }
 
@@ -74,18 +74,18 @@ void for_each_edge_of_both_trees(const TreeRobot& robot, FunctionRef<void(int)> 
 
 // How far a point is from the nearest of my tree edges: the farther, the less it matters.
 float to_edges(const TreeRobot& robot, Vec2 p) noexcept {
-  float nearest_m = norm(p);
+  float nearest = norm(p);
   for_each_edge_of_both_trees(robot, [&](int k) {
-    nearest_m = std::min(nearest_m, distance_to_segment(p, Vec2{}, robot.table().position(k)));
+    nearest = std::min(nearest, distance_to_segment(p, Vec2{}, robot.table().position(k)));
   });
-  return nearest_m;
+  return nearest;
 }
 
 // Remembers a point; when there is no room, the one that matters least is dropped.
 void file(const TreeRobot& robot, Corners& corners, Vec2 o) noexcept {
   Landmarks& known = corners.landmarks;
   const auto begin = known.points.begin();
-  if (banyan::any_of(begin, begin + known.size, [&](Vec2 p) { return distance(p, o) < spacing_m; })) return;
+  if (banyan::any_of(begin, begin + known.size, [&](Vec2 p) { return distance(p, o) < spacing; })) return;
   if (known.size < landmark_capacity) {
     known.points[known.size++] = o;
     return;
@@ -101,8 +101,8 @@ void hear_of_corners(const TreeRobot& robot, Corners& corners) noexcept {
   const auto hear = [&](int k) {
     const TreeStanding& m = table.message(k);
     const CornerStanding& corner = corners.of(k);
-    if (table.age(k) > 0 || up_of(m) != robot.self.id || (corner.hinge_x_cm == 0 && corner.hinge_y_cm == 0)) return;
-    file(robot, corners, from_edge_frame({metres(corner.hinge_x_cm), metres(corner.hinge_y_cm)}, table.position(k)));
+    if (table.age(k) > 0 || up_of(m) != robot.self.id || (corner.hinge_x.bits == 0 && corner.hinge_y.bits == 0)) return;
+    file(robot, corners, from_edge_frame({corner.hinge_x.value(), corner.hinge_y.value()}, table.position(k)));
   };
   for (const IndexList* below : {&robot.children, &robot.old_children})
     for (const int k : *below) hear(k);
@@ -120,15 +120,15 @@ void note_contact(const TreeRobot& robot, Corners& corners) noexcept {
   // The tree is where the root's newest sequence number comes from.
   int nearest = -1;
   int hops = std::numeric_limits<int>::max();
-  float range_m = 0.0F;
+  float range = 0.0F;
   for (const Rows* const rows : {&table.nearest, &table.all()}) {
     if (nearest >= 0) break;
     rows->for_each([&](int k) {
       const int hops_k = table.message(k).tree_hops;
-      if (hops_k > hops || table.age(k) > 0 || (hops_k == hops && table.range(k) >= range_m)) return;
+      if (hops_k > hops || table.age(k) > 0 || (hops_k == hops && table.range(k) >= range)) return;
       nearest = k;
       hops = hops_k;
-      range_m = table.range(k);
+      range = table.range(k);
     });
   }
   if (nearest < 0) return;
@@ -136,11 +136,11 @@ void note_contact(const TreeRobot& robot, Corners& corners) noexcept {
   if (m.epoch == self.epoch && is_newer(m.seqno, self.seqno)) corners.seen_from = table.position(nearest);
 }
 
-// How near obstacles come to the line of sight to a neighbour; sight_width_m if they do not.
+// How near obstacles come to the line of sight to a neighbour; sight_width if they do not.
 float room_beside(const TreeRobot& robot, const Corners& corners, Vec2 neighbor) noexcept {
-  float room_m = sight_width_m;
-  for_each_threat(robot, corners, neighbor, [&](const Threat& t) { room_m = std::min(room_m, t.across_m); });
-  return room_m;
+  float room = sight_width;
+  for_each_threat(robot, corners, neighbor, [&](const Threat& t) { room = std::min(room, t.room); });
+  return room;
 }
 
 // The spares are around the root, which must not lose sight of the last of them behind a corner. Index of
@@ -149,41 +149,41 @@ int last_in_sight(const TreeRobot& robot, const Corners& corners) noexcept {
   if (!robot.is_root() || corners.landmarks.size == 0) return -1;
   const TreeTable& table = robot.table();
   int best = -1;
-  float best_m = 0.0F;
+  float best_length = 0.0F;
   for (int k = 0; k < table.size(); ++k) {
     if (!table.alive(k) || table.message(k).role != Role::spare) continue;
-    const float room_m = room_beside(robot, corners, table.position(k));
-    if (room_m >= sight_width_m) return -1;
-    if (best >= 0 && room_m <= best_m) continue;
+    const float room = room_beside(robot, corners, table.position(k));
+    if (room >= sight_width) return -1;
+    if (best >= 0 && room <= best_length) continue;
     best = k;
-    best_m = room_m;
+    best_length = room;
   }
   return best;
 }
 
 // Whether I hold back a child that has to go on.
-bool is_towed(const TreeRobot& robot, const Corners& corners, float start_m) noexcept {
+bool is_towed(const TreeRobot& robot, const Corners& corners, float start) noexcept {
   const TreeTable& table = robot.table();
   const auto tows = [&](int k) {
     const TreeStanding& m = table.message(k);
-    return m.role != Role::spare && m.want_cm > 0 && (corners.of(k).pinned || table.range(k) > start_m);
+    return m.role != Role::spare && m.want > 0 && (corners.of(k).pinned || table.range(k) > start);
   };
   return banyan::any_of(robot.children, tows);
 }
 
 // Everything nearer would be sensed.
-float nearest_sensed_m(const TreeRobot& robot) noexcept {
-  float nearest_m = body_m(robot) + near_m;
-  for (const Vec2 o : robot.obstacles) nearest_m = std::min(nearest_m, norm(o));
-  return nearest_m;
+float nearest_sensed(const TreeRobot& robot) noexcept {
+  float nearest = robot.params.body_radius + obstacle_near;
+  for (const Vec2 o : robot.obstacles) nearest = std::min(nearest, norm(o));
+  return nearest;
 }
 
 void forget_wrong(const TreeRobot& robot, Corners& corners) noexcept {
   Landmarks& known = corners.landmarks;
-  const float nearest_m = nearest_sensed_m(robot);
-  const float far_m = forget * robot.params.communication_range_m;
+  const float nearest = nearest_sensed(robot);
+  constexpr float far = forget;
   // A point nearer than everything that is sensed no longer exists, or never did.
-  const auto is_wrong = [&](Vec2 p) { return norm(p) > far_m || norm(p) < nearest_m - spacing_m; };
+  const auto is_wrong = [&](Vec2 p) { return norm(p) > far || norm(p) < nearest - spacing; };
   std::uint8_t kept = 0;
   for (std::size_t k = 0; k < known.size; ++k)
     if (!is_wrong(known.points[k])) known.points[kept++] = known.points[k];
@@ -195,18 +195,18 @@ bool is_heard_through(const TreeRobot& robot, Vec2 center) noexcept {
   constexpr float well_inside = 0.5F;  // of the radius: what is remembered drifts
   const TreeTable& table = robot.table();
   for (int k = 0; k < table.size(); ++k)
-    if (table.age(k) == 0 && distance_to_segment(center, Vec2{}, table.position(k)) < well_inside * body_m(robot))
+    if (table.age(k) == 0 && distance_to_segment(center, Vec2{}, table.position(k)) < well_inside * robot.params.body_radius)
       return true;
   return false;
 }
 
 // Out of reach of all edges, not where the sensor would see it, heard again, or gone.
 void forget_bodies(const TreeRobot& robot, KnownBodies& bodies) noexcept {
-  const float nearest_m = nearest_sensed_m(robot);
+  const float nearest = nearest_sensed(robot);
   const auto is_wrong = [&](std::size_t k) {
     const float d = norm(bodies.centers[k]);
     const int place = robot.table().find(bodies.ids[k]);
-    return d > forget * robot.params.communication_range_m || d - body_m(robot) < nearest_m - spacing_m ||
+    return d > forget || d - robot.params.body_radius < nearest - spacing ||
            (place >= 0 && robot.table().age(place) == 0) || is_heard_through(robot, bodies.centers[k]);
   };
   std::uint8_t kept = 0;
@@ -220,10 +220,10 @@ void forget_bodies(const TreeRobot& robot, KnownBodies& bodies) noexcept {
 
 // Remembers neighbour k as a body, unless it may only be hidden or out of range.
 void note_body(const TreeRobot& robot, Corners& corners, int k) noexcept {
-  constexpr float clear_m = 0.16F;  // of other robots, which may have moved since it was heard
+  constexpr float clear = 0.08F;  // of other robots, which may have moved since it was heard
   const TreeTable& table = robot.table();
   KnownBodies& bodies = corners.bodies;
-  if (table.range(k) > longest_link * robot.params.communication_range_m || !sees_clearly(robot, corners, k, clear_m))
+  if (table.range(k) > longest_link || !sees_clearly(robot, corners, k, clear))
     return;
   const auto begin = bodies.ids.begin();
   if (banyan::any_of(begin, begin + bodies.size, [&](RobotId id) { return id == table.id(k); })) return;
@@ -273,16 +273,16 @@ bool find_hinge(const TreeRobot& robot, const Corners& corners, Vec2& hinge) noe
   if (up < 0) return false;
   const Vec2 parent = robot.table().position(up);
   const Vec2 direction = unit(parent);
-  float best_m = hinge_width_m;
+  float best_length = hinge_width;
   for_each_obstacle(robot, corners, [&](Vec2 o, float r) {
     const float along = dot(o, parent);
     const float across = cross(direction, o);
-    const float across_m = std::max(std::abs(across) - r, 0.0F);
-    if (along <= 0.0F || along >= squared_norm(parent) || across_m >= best_m) return;
-    best_m = across_m;
+    const float room = std::max(std::abs(across) - r, 0.0F);
+    if (along <= 0.0F || along >= squared_norm(parent) || room >= best_length) return;
+    best_length = room;
     hinge = o - left_of(direction) * (across < 0.0F ? -r : r);  // of a body the point nearest to the edge
   });
-  return best_m < hinge_width_m;
+  return best_length < hinge_width;
 }
 
 void keep_sight(const TreeRobot& robot, const Corners& corners, Guard& guard) noexcept {
@@ -290,8 +290,8 @@ void keep_sight(const TreeRobot& robot, const Corners& corners, Guard& guard) no
   const auto keep = [&](int k) {
     for_each_threat(robot, corners, robot.table().position(k), [&](const Threat& t) {
       if (t.lever < (t.is_body ? least_lever_body : least_lever)) return;
-      const float room_m = std::max(0.0F, t.across_m - sight_margin_m);
-      guard.add_limit(t.towards, 0.5F * room_m * robot.params.guard_rate_per_s / t.lever);
+      const float room = std::max(0.0F, t.room - sight_margin);
+      guard.add_limit(t.towards, 0.5F * room * robot.params.guard_rate / t.lever);
     });
   };
   for_each_edge_of_both_trees(robot, keep);
@@ -299,38 +299,38 @@ void keep_sight(const TreeRobot& robot, const Corners& corners, Guard& guard) no
 }
 
 Vec2 clear_sight(const TreeRobot& robot, const Corners& corners) noexcept {
-  static constexpr float on_line_m = 1e-3F;
+  static constexpr float on_line = 5e-4F;
   static constexpr float most_push = 2.0F;  // that of a line at a third of the width
   Vec2 u;
   if (!robot.params.line_of_sight) return u;
   for_each_edge_of_both_trees(robot, [&](int k) {
     for_each_threat(robot, corners, robot.table().position(k), [&](const Threat& t) {
-      u += -t.towards * (t.lever * std::min(sight_width_m / std::max(t.across_m, on_line_m) - 1.0F, most_push));
+      u += -t.towards * (t.lever * std::min(sight_width / std::max(t.room, on_line) - 1.0F, most_push));
     });
   });
   return u;
 }
 
-bool is_pinned(const TreeRobot& robot, const Corners& corners, float towing_start_m) noexcept {
-  if (robot.self.want_m <= 0.0F) return false;
+bool is_pinned(const TreeRobot& robot, const Corners& corners, float towing_start) noexcept {
+  if (robot.self.want <= 0.0F) return false;
   if (robot.is_root()) {
     const int k = last_in_sight(robot, corners);
-    return k >= 0 && robot.table().range(k) > pin_shortest_m;
+    return k >= 0 && robot.table().range(k) > pin_shortest;
   }
-  if (!robot.parent_alive() || (!robot.self.is_worker && !is_towed(robot, corners, towing_start_m))) return false;
-  return robot.table().range(robot.parent) > pin_shortest_m &&
-         room_beside(robot, corners, robot.table().position(robot.parent)) < pin_width_m;
+  if (!robot.parent_alive() || (!robot.self.is_worker && !is_towed(robot, corners, towing_start))) return false;
+  return robot.table().range(robot.parent) > pin_shortest &&
+         room_beside(robot, corners, robot.table().position(robot.parent)) < pin_width;
 }
 
-bool is_free(const TreeRobot& robot, const Corners& corners, Vec2 a, Vec2 b, float clearance_m) noexcept {
+bool is_free(const TreeRobot& robot, const Corners& corners, Vec2 a, Vec2 b, float clearance) noexcept {
   const Vec2 d = b - a;
   const float d2 = squared_norm(d);
   bool free = true;
   for_each_obstacle(robot, corners, [&](Vec2 o, float r) {
     const float along = dot(o - a, d);
     const float across = cross(o - a, d);
-    const float apart_m = clearance_m + r;
-    free = free && (along <= 0.0F || along >= d2 || across * across >= apart_m * apart_m * d2);
+    const float room_apart = clearance + r;
+    free = free && (along <= 0.0F || along >= d2 || across * across >= room_apart * room_apart * d2);
   });
   return free;
 }

@@ -27,19 +27,19 @@ constexpr int turns = 16;
 constexpr float urgent_level = 0.5F;  // a robot with less is let through to the place
 constexpr float place_room = 0.4F;    // of C: kept free round it by those that are charged
 
-void measure_charge(PowerRobot& me, const Senses& senses) noexcept {
+void measure_charge(PowerRobot& me, const std::optional<Charge>& charge, const Orders& orders) noexcept {
   PowerState& power = me.power;
-  power.charging = senses.charge && senses.charge->charging;
+  power.charging = charge && charge->charging;
   power.was_charged |= power.charging;
-  if (senses.charge) {
-    const float level = senses.charge->level;
+  if (charge) {
+    const float level = charge->level;
     power.level = power.level < 0.0F ? level : power.level + (level - power.level) * charge_smoothing;
     power.said.level = static_cast<std::uint8_t>(power.level * level_unit + 0.5F);
   }
   // A successor is not told that its target is a charging place: it notices.
   const HealingState& self = me.robot.self;
   power.keeps_place = self.is_worker &&
-                      (power.keeps_place || power.charging || (senses.orders.charging_place && self.serves == self.id));
+                      (power.keeps_place || power.charging || (orders.charging_place && self.serves == self.id));
 }
 
 // Hops from robot to robot, as for calls (protocol 7): the keeper of a place counts 0.
@@ -47,7 +47,7 @@ void follow_places(PowerRobot& me) noexcept {
   const HealingRobot& robot = me.robot;
   const TreeTable& table = robot.table();
   const bool there =
-      me.power.keeps_place && robot.target != nullptr && norm(*robot.target) <= robot.params.arrival_distance_m;
+      me.power.keeps_place && robot.target != nullptr && norm(*robot.target) <= robot.params.arrival_distance;
   std::uint8_t hops = no_place;
   for (int k = 0; k < table.size() && !there; ++k)
     if (table.alive(k)) hops = std::min(hops, me.standing(k).place_hops);
@@ -120,7 +120,7 @@ int way_to_place(const PowerRobot& me) noexcept {
 // drives to where the one that it has chosen was, until it is there or hears one that is nearer to the place.
 void choose_way(PowerRobot& me) noexcept {
   constexpr float reached = 0.18F;  // of C
-  constexpr float patience_s = 10.0F;
+  constexpr float patience_drives = 1.0F;
   PowerState& power = me.power;
   const HealingRobot& robot = me.robot;
   const TreeTable& table = robot.table();
@@ -131,8 +131,8 @@ void choose_way(PowerRobot& me) noexcept {
     power.way = table.position(now);
     if (half_hops(me, now) > power.way_hops) power.way_id = nobody;
   }
-  const bool there = norm(power.way) < reached * robot.params.communication_range_m && power.way_hops > 0;
-  if (k >= 0 && (power.way_id == nobody || there || power.way_ticks > robot.params.ticks(patience_s) ||
+  const bool there = norm(power.way) < reached && power.way_hops > 0;
+  if (k >= 0 && (power.way_id == nobody || there || power.way_ticks > robot.params.rounds(patience_drives) ||
                  half_hops(me, k) < power.way_hops)) {
     power.way = table.position(k);
     power.way_hops = static_cast<std::uint8_t>(half_hops(me, k));
@@ -172,15 +172,15 @@ bool lets_through(const PowerRobot& me) noexcept {
   if (me.power.charging || me.power.level < urgent_level) return false;
   for (int k = 0; k < table.size(); ++k)
     if (me.is_spare(k) && table.alive(k) && static_cast<float>(me.standing(k).level) < urgent_level * level_unit &&
-        table.range(k) < place_room * me.robot.params.communication_range_m)
+        table.range(k) < place_room)
       return true;
   return false;
 }
 
 }  // namespace
 
-void watch_charge(PowerRobot& me, const Senses& senses) noexcept {
-  measure_charge(me, senses);
+void watch_charge(PowerRobot& me, const std::optional<Charge>& charge, const Orders& orders) noexcept {
+  measure_charge(me, charge, orders);
   me.power.way = me.robot.carry.point(me.power.way);
   follow_places(me);
   listen_for_calls(me);
@@ -218,12 +218,12 @@ void call_for_relief(PowerRobot& me) noexcept {
 
 bool leaves_place(const PowerRobot& me, Vec2& away) noexcept {
   const TreeTable& table = me.robot.table();
-  const float room_m = place_room * me.robot.params.communication_range_m;
+  const float room = place_room;
   if ((me.power.seeks && !lets_through(me)) || (me.robot.self.called && !me.power.travels) ||
       me.robot.self.request != nobody)
     return false;
   for (int k = 0; k < table.size(); ++k) {
-    if (!table.alive(k) || me.standing(k).place_hops != 0 || table.range(k) >= room_m) continue;
+    if (!table.alive(k) || me.standing(k).place_hops != 0 || table.range(k) >= room) continue;
     away = unit(table.position(k)) * -1.0F;
     return true;
   }
@@ -250,7 +250,7 @@ bool may_inherit_root(const PowerRobot& me, int k) noexcept {
 bool is_at_place(const PowerRobot& me) noexcept {
   const PowerState& power = me.power;
   return power.seeks && power.way_id != nobody && power.way_hops == 0 &&
-         norm(power.way) <= (power.charging ? in_slot : at_place) * me.robot.params.communication_range_m;
+         norm(power.way) <= (power.charging ? in_slot : at_place);
 }
 
 }  // namespace banyan

@@ -15,13 +15,13 @@ bool changes_places(const PowerRobot& me, int k) noexcept {
 
 }  // namespace
 
-float give_way(const PowerRobot& me, float clearance_m, Guard& guard) noexcept {
+float give_way(const PowerRobot& me, float clearance, Guard& guard) noexcept {
   constexpr float slow = 0.25F;
   constexpr float room = 1.5F;        // times the clearance: a robot nearer to an edge hurries
-  constexpr float hides_m = 0.07F;    // from body to line of sight
-  constexpr float to_pass_m = 0.10F;  // for those that take part
-  constexpr float to_move_m = 0.18F;  // for others, since robots that change places move
-  constexpr float hesitates_s = 8.0F;
+  constexpr float hides = 0.035F;    // from body to line of sight
+  constexpr float to_pass = 0.05F;  // for those that take part
+  constexpr float to_move = 0.09F;  // for others, since robots that change places move
+  constexpr float hesitates_drives = 0.8F;
   const HealingRobot& robot = me.robot;
   const TreeState& self = robot.self;
   const TreeTable& table = robot.table();
@@ -29,11 +29,11 @@ float give_way(const PowerRobot& me, float clearance_m, Guard& guard) noexcept {
   const int leaver = table.find(me.power.said.relieves);
   if (!free && leaver < 0) return 1.0F;
   const bool joins = leaver >= 0 || self.spare_state == SpareState::extend_edge;
-  const bool pushes = leaver < 0 && self.request_ticks > robot.params.ticks(hesitates_s);
+  const bool pushes = leaver < 0 && self.request_ticks > robot.params.rounds(hesitates_drives);
   bool waits = free && self.request == nobody && !self.called && !me.power.travels;
   const auto keep_apart = [&](Vec2 to) {
     const float d = norm(to);
-    if (d > hides_m) guard.add_limit(to / d, (d - (joins ? to_pass_m : to_move_m)) * robot.params.guard_rate_per_s);
+    if (d > hides) guard.add_limit(to / d, (d - (joins ? to_pass : to_move)) * robot.params.guard_rate);
   };
   for (int k = 0; k < table.size(); ++k) {
     if (k == leaver || me.is_spare(k)) continue;
@@ -46,7 +46,7 @@ float give_way(const PowerRobot& me, float clearance_m, Guard& guard) noexcept {
     const int up = id == self.id ? -1 : table.find(id);
     if (up < 0) continue;
     const Vec2 to = nearest_on_segment(at, table.position(up));
-    waits = waits && norm(to) >= room * clearance_m;
+    waits = waits && norm(to) >= room * clearance;
     if (!pushes && table.id(k) != self.request && (changes_places(me, k) || changes_places(me, up))) keep_apart(to);
   }
   return waits ? slow : 1.0F;

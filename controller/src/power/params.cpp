@@ -17,8 +17,8 @@ constexpr Parameter<PowerParams> of_power[] = {
      &PowerParams::ready_above},
     {{"relief_edge", "", "C",
       "batteries: robots are saved by edges up to this, so that one beside another reaches as far",
-      "Larger saves more robots, and more reliefs have to wait.", "lasting", 0.0F, 1.0F, Scaling::range},
-     &PowerParams::relief_edge_m},
+      "Larger saves more robots, and more reliefs have to wait.", "lasting", 0.0F, 1.0F},
+     &PowerParams::relief_edge},
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ constexpr float slack_below = 0.6F;      // of C: an edge this short has slack
 constexpr float beside = 0.12F;          // of C: how far from the robot that it relieves a spare takes its place
 constexpr float relief_reach = 0.2F;     // of C: from there it may
 constexpr float longest_taken = 0.925F;  // of C: longest edge that a reliever takes on
-constexpr float side_by_side = 0.8F;     // of the distance between the wheels: two robots at one target
+constexpr float side_by_side = 1.2F;     // of the radius: two robots at one target
 constexpr float surely_there = 0.9F;     // of the tolerance
 
 // A neighbour that leaves and has me as parent, in whose place I am or will be.
@@ -72,7 +72,7 @@ int leaver_of(const PowerRobot& me) noexcept {
 // A child that I do not hear is right behind the robot that leaves, seen from here. That is remembered for a while: if
 // it were behind it from wherever I go, every spot that I come near would seem a bad one, and I would go to and fro.
 void remember_unseen_child(PowerRobot& me) noexcept {
-  constexpr float remembered_s = 5.0F;
+  constexpr float remembered_drives = 0.5F;
   PowerState& power = me.power;
   const int k = leaver_of(me);
   if (k < 0 || !hides_child(me, k)) {
@@ -81,9 +81,9 @@ void remember_unseen_child(PowerRobot& me) noexcept {
     return;
   }
   power.unseen = me.robot.carry.point(power.unseen);
-  if (power.unseen_ticks == 0 || power.unseen_ticks > me.robot.params.ticks(remembered_s)) {
+  if (power.unseen_ticks == 0 || power.unseen_ticks > me.robot.params.rounds(remembered_drives)) {
     const Vec2 at = me.robot.table().position(k);
-    power.unseen = at + unit(at) * me.robot.params.communication_range_m;
+    power.unseen = at + unit(at);
     power.unseen_ticks = 0;
   }
   me.robot.add_elapsed(power.unseen_ticks);
@@ -98,16 +98,16 @@ void choose_relieved(PowerRobot& me) noexcept {
   PowerStanding& said = me.power.said;
   const RobotId before = std::exchange(said.relieves, nobody);
   if (robot.self.role == Role::spare || robot.self.is_worker || said.leaving || said.level == 0xFF) return;
-  float best_m = relief_reach * robot.params.communication_range_m;
+  float best_length = relief_reach;
   for (int k = 0; k < table.size(); ++k) {
     const TreeStanding& m = table.message(k);
     const PowerStanding& other = me.standing(k);
     const bool child = up_of(m) == robot.self.id || table.id(k) == robot.self.inserted_child;
     if (!table.alive(k) || !child || !other.leaving || m.role == Role::spare || said.level <= other.level) continue;
     if (m.role == Role::worker && robot.is_root()) continue;
-    const float range_m = table.id(k) == before ? table.range(k) / kept_within : table.range(k);
-    if (range_m > best_m) continue;
-    best_m = range_m;
+    const float range = table.id(k) == before ? table.range(k) / kept_within : table.range(k);
+    if (range > best_length) continue;
+    best_length = range;
     said.relieves = table.id(k);
   }
   // Not while somebody drives through one of my edges.
@@ -121,7 +121,7 @@ void settle_in(PowerRobot& me) noexcept {
   PowerStanding& said = me.power.said;
   Vec2 spot;
   const bool there = said.relieves != nobody && find_relief_spot(me, spot) &&
-                     norm(spot) <= in_place * me.robot.params.communication_range_m &&
+                     norm(spot) <= in_place &&
                      !hides_child(me, me.robot.table().find(said.relieves));
   said.in_place = said.relieves != nobody && (said.in_place || there);
   if (said.relieves != nobody || is_parent_relieved(me)) me.robot.add_elapsed(me.power.stuck_ticks);
@@ -136,8 +136,8 @@ void choose_heir(PowerRobot& me) noexcept {
   if (!said.leaving || !robot.self.is_worker || robot.target == nullptr || !has_reliever(me) ||
       robot.table().age(robot.parent) > 0)
     return;
-  const float off_m = distance(robot.table().position(robot.parent), *robot.target);
-  if (off_m <= surely_there * robot.params.arrival_distance_m) said.heir = robot.self.parent;
+  const float off = distance(robot.table().position(robot.parent), *robot.target);
+  if (off <= surely_there * robot.params.arrival_distance) said.heir = robot.self.parent;
 }
 
 // Of the spots round the robot that leaves, the one from which the farthest of its tree neighbours is nearest, among
@@ -152,8 +152,7 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
   const int parent = table.find(above);
   const Vec2 axis =
       parent >= 0 && distance(table.position(parent), at) > 0.0F ? unit(table.position(parent) - at) : Vec2{1.0F, 0.0F};
-  const float range_m = me.robot.params.communication_range_m;
-  const float apart_m = beside * range_m;
+  const float room_apart = beside;
   const bool hides = me.power.unseen_ticks > 0;
   constexpr int spots = 8;  // around it, a diagonal apart
   constexpr float diagonal = 0.70710678F;
@@ -162,23 +161,23 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
   constexpr float hidden_behind = 0.6F;  // of the distance to it: its body is so near to the line of sight
   Vec2 best = at;
   float best_cost = not_counted;
-  Vec2 off = left_of(axis) * apart_m;
+  Vec2 off = left_of(axis) * room_apart;
   for (int turn = 0; turn < spots; ++turn, off = (off + left_of(off)) * diagonal) {
-    float farthest_m = 0.0F;
-    float hidden_m = 0.0F;
+    float farthest = 0.0F;
+    float hidden = 0.0F;
     const auto look_at = [&](int k) {
       const Vec2 other = table.position(k) - at;
-      farthest_m = std::max(farthest_m, distance(off, other));
-      if (crosses(at + off, at - other, at + other)) hidden_m += costs_crossing * range_m;
-      if (distance_to_segment(Vec2{}, off, other) < hidden_behind * apart_m) hidden_m += range_m;
+      farthest = std::max(farthest, distance(off, other));
+      if (crosses(at + off, at - other, at + other)) hidden += costs_crossing;
+      if (distance_to_segment(Vec2{}, off, other) < hidden_behind * room_apart) hidden += 1.0F;
     };
     if (parent >= 0) look_at(parent);
-    if (hides && distance_to_segment(Vec2{}, off, me.power.unseen - at) < hidden_behind * apart_m) hidden_m += range_m;
+    if (hides && distance_to_segment(Vec2{}, off, me.power.unseen - at) < hidden_behind * room_apart) hidden += 1.0F;
     for (int k = 0; k < table.size(); ++k)  // its children, and those that have changed to me already
       if (k != leaver && !me.is_spare(k) &&
           (up_of(table.message(k)) == id || up_of(table.message(k)) == me.robot.self.id))
         look_at(k);
-    const float cost = farthest_m + hidden_m + costs_travel * norm(at + off);
+    const float cost = farthest + hidden + costs_travel * norm(at + off);
     if (cost < best_cost) best = at + off, best_cost = cost;
   }
   return best;
@@ -225,22 +224,21 @@ bool wants_relief(const PowerRobot& me) noexcept {
 
 bool may_relieve(const PowerRobot& me, int leaver, int parent, FunctionRef<bool(int)> in_sight) noexcept {
   const TreeTable& table = me.robot.table();
-  const float c = me.robot.params.communication_range_m;
-  if (hides_child(me, leaver) || table.range(leaver) > relief_reach * c || table.range(parent) > longest_taken * c ||
+  if (hides_child(me, leaver) || table.range(leaver) > relief_reach || table.range(parent) > longest_taken ||
       !in_sight(parent))
     return false;
   for (int k = 0; k < table.size(); ++k)
     if (table.message(k).parent == table.id(leaver) && !me.is_spare(k) &&
-        (table.range(k) > longest_taken * c || !in_sight(k)))
+        (table.range(k) > longest_taken || !in_sight(k)))
       return false;
   return true;
 }
 
 bool is_stuck(const PowerRobot& me) noexcept {
-  constexpr float patience_s = 6.0F;
+  constexpr float patience_drives = 0.6F;
   const HealingRobot& robot = me.robot;
-  return me.power.stuck_ticks > robot.params.ticks(patience_s) && robot.parent >= 0 &&
-         robot.table().range(robot.parent) > slack_below * robot.params.communication_range_m;
+  return me.power.stuck_ticks > robot.params.rounds(patience_drives) && robot.parent >= 0 &&
+         robot.table().range(robot.parent) > slack_below;
 }
 
 int successor_of_parent(const PowerRobot& me, FunctionRef<bool(int)> may_be_parent) noexcept {
@@ -253,16 +251,16 @@ int successor_of_parent(const PowerRobot& me, FunctionRef<bool(int)> may_be_pare
 bool find_relief_spot(const PowerRobot& me, Vec2& spot) noexcept {
   HealingRobot& robot = me.robot;
   const TreeTable& table = robot.table();
-  const float apart_m = side_by_side * robot.params.wheel_distance_m;
+  const float room_apart = side_by_side * robot.params.body_radius;
   if (has_reliever(me) && me.power.said.leaving) {
     if (!robot.self.is_worker || robot.target == nullptr) return spot = {}, true;
-    return spot = *robot.target - unit(table.position(robot.parent)) * apart_m, true;
+    return spot = *robot.target - unit(table.position(robot.parent)) * room_apart, true;
   }
   const int k = leaver_of(me);
   if (k < 0) return false;
   const Task* task = find_task(robot.self, robot.self.healing_standings[static_cast<std::size_t>(k)].serves);
   const bool at_target = table.message(k).role == Role::worker && task != nullptr && !task->unlocated;
-  spot = at_target && robot.self.role != Role::spare ? task->target - unit(table.position(k)) * apart_m
+  spot = at_target && robot.self.role != Role::spare ? task->target - unit(table.position(k)) * room_apart
                                                      : spot_beside(me, k);
   return true;
 }

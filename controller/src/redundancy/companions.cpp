@@ -17,7 +17,7 @@
 namespace banyan {
 namespace {
 
-constexpr float short_for_s = 10.0F;      // an edge in need has called for so long: its tree comes before companions
+constexpr float short_for_drives = 1.0F; // an edge in need has called for so long: its tree comes before companions
 constexpr int call_reach_hops_each = 40;  // of calls by edges, and of those for companions
 constexpr int lacks_after_ticks = 3;      // it may just not have heard its companion
 constexpr int stand_in = 3;    // times the silence after which a robot counts as dead: so long its companion stays
@@ -33,22 +33,22 @@ constexpr float hides = 0.6F;           // of `clearance`: a robot so near to a 
 constexpr float near_place = 0.05F;     // of C: within it the companion slows down
 constexpr float keeps_off = 0.8F;       // of companion_distance: nearer it is driven away from the robot of the tree
 constexpr float from_afar = 2.0F;       // times companion_distance: farther it is still on its way
-constexpr float least_range_m = 0.05F;  // no robots are nearer to each other
+constexpr float least_range = 0.025F;  // no robots are nearer to each other
 constexpr float even = 0.5F;            // of companion_distance: of two companions none is the nearer by less
-// Of a metre by which a place is better: the way there, so that it does not change its mind.
+// Of a length by which a place is better: the way there, so that it does not change its mind.
 constexpr float costs_way = 0.15F;
 constexpr float costs_hidden = 0.5F;  // of C: what a hidden neighbour weighs against the distance of others
 constexpr float costs_crowd = 0.25F;  // of C: likewise a robot at that place, or an edge through it
 
-float bridged_m(const ConvoyRobot& robot) noexcept {
-  return may_fold(robot) ? folded_reach_m(robot.params) : bridged * robot.params.communication_range_m;
+float bridged_reach(const ConvoyRobot& robot) noexcept {
+  return may_fold(robot) ? folded_reach(robot.params) : bridged;
 }
 
 // Two robots at a and b hear each other without the one at `middle`, whose body stays where it is, even if it dies.
 bool hear_each_other(const ConvoyRobot& robot, Vec2 middle, Vec2 a, Vec2 b, bool travels) noexcept {
-  if (robot.params.line_of_sight && distance_to_segment(middle, a, b) < hides * robot.params.clearance_m) return false;
-  const float on_way_m = bridged_on_way * robot.params.communication_range_m;
-  return distance(a, b) <= (travels ? on_way_m : bridged_m(robot));
+  if (robot.params.line_of_sight && distance_to_segment(middle, a, b) < hides * robot.params.clearance) return false;
+  const float on_way = bridged_on_way;
+  return distance(a, b) <= (travels ? on_way : bridged_reach(robot));
 }
 
 // Where the tree neighbours of a robot are.
@@ -101,12 +101,12 @@ bool accompanies(const ConvoyRobot& robot, int j, RobotId of) noexcept {
 // nothing, have smaller ids.
 int count_before_me(const ConvoyRobot& robot, int k) noexcept {
   const TreeTable& table = robot.table();
-  const float even_m = even * robot.params.companion_distance_m;
+  const float even_length = even * robot.params.companion_distance;
   int count = 0;
   for (int j = 0; j < table.size(); ++j) {
     if (!accompanies(robot, j, table.id(k))) continue;
-    const float behind_m = table.range(k) - distance(table.position(j), table.position(k));
-    if (behind_m > even_m || (behind_m > -even_m && table.id(j) < robot.self.id)) ++count;
+    const float behind = table.range(k) - distance(table.position(j), table.position(k));
+    if (behind > even_length || (behind > -even_length && table.id(j) < robot.self.id)) ++count;
   }
   return count;
 }
@@ -116,7 +116,7 @@ int wanted_companions(const ConvoyRobot& robot) noexcept { return robot.params.l
 // While a worker below it still travels, neighbour k has one more than it needs: a reserve that comes along, for robots
 // that need one when the other spares are far behind. Where robots hide edges, reserves would.
 int welcome_companions(const ConvoyRobot& robot, int k) noexcept {
-  const bool reserve = robot.table().message(k).want_cm > 0 && !robot.params.line_of_sight;
+  const bool reserve = robot.table().message(k).want > 0 && !robot.params.line_of_sight;
   return wanted_companions(robot) + (reserve ? 1 : 0);
 }
 
@@ -190,7 +190,7 @@ void choose_whom(ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   follow_call(robot);
   const bool busy = self.parent != nobody || self.spare_state == SpareState::extend_edge;
-  if (busy || self.alone_ticks > robot.params.ticks(short_for_s)) {
+  if (busy || self.alone_ticks > robot.params.rounds(short_for_drives)) {
     self.accompanies = nobody;
     return;
   }
@@ -212,12 +212,12 @@ void choose_whom(ConvoyRobot& robot) noexcept {
 bool depends_on_me(const ConvoyRobot& robot) noexcept {
   const int up = robot.is_root() ? -1 : robot.up();
   const EdgeEnds ends = known_ends(robot, robot.self.id, up < 0 ? nobody : robot.table().id(up));
-  return holds_together(robot, Vec2{}, ends.all(), robot.self.want_m > 0.0F);
+  return holds_together(robot, Vec2{}, ends.all(), robot.self.want > 0.0F);
 }
 
 // I am the worker at the end of a branch that travels and is going to fold (leads_travelling).
 bool leads(const ConvoyRobot& robot) noexcept {
-  return may_fold(robot) && robot.self.is_worker && robot.self.want_m > 0.0F && robot.parent >= 0 &&
+  return may_fold(robot) && robot.self.is_worker && robot.self.want > 0.0F && robot.parent >= 0 &&
          robot.useful_children == 0;
 }
 
@@ -227,12 +227,12 @@ void call(ConvoyRobot& robot) noexcept {
   const bool lacks = needs && count_companions(robot, self.id) < wanted_companions(robot);
   const bool alone = lacks || (robot.parent >= 0 && wants_fold(robot));
   // Where a branch folds, spares go by this alone: robots of the tree hide others from them.
-  if (needs && self.want_m < folds_from_m && may_fold(robot)) self.request = self.id;
+  if (needs && self.want < folds_from && may_fold(robot)) self.request = self.id;
   if (!alone) self.alone_ticks = 0;
   else robot.add_elapsed(self.alone_ticks);
   if (!alone || self.phase != Phase::grow_tree) return;
   if (lacks && self.alone_ticks > lacks_after_ticks) self.request = self.id;
-  if (self.alone_ticks > robot.params.ticks(robot.params.call_after_s))
+  if (self.alone_ticks > whole(robot.params.call_after_rounds))
     self.call_hops = std::min(self.call_hops, companion_call);
 }
 
@@ -243,13 +243,12 @@ int degree_of(const ConvoyRobot& robot, int k) noexcept {
 // In which direction from the robot at `center` a tree neighbour is that I do not hear: opposite to the others or,
 // where robots hide nothing, as near to that as is out of my reach.
 Vec2 unheard_direction(const ConvoyRobot& robot, Vec2 center, Vec2 opposite) noexcept {
-  const float c = robot.params.communication_range_m;
   if (robot.params.line_of_sight) return opposite;
-  const float far_m = unheard_at * c;
-  const float d = std::max(norm(center), least_range_m);
+  const float far = unheard_at;
+  const float d = std::max(norm(center), least_range);
   const Vec2 me = -center / d;
   // The cosine of the angle to me from which on it is out of reach.
-  const float nearest = std::max((far_m * far_m + d * d - c * c) / (2.0F * far_m * d), -1.0F);
+  const float nearest = std::max((far * far + d * d - 1.0F) / (2.0F * far * d), -1.0F);
   const float along = dot(opposite, me);
   if (along <= nearest) return opposite;
   const Vec2 side = cross(me, opposite) < 0.0F ? -left_of(me) : left_of(me);
@@ -263,7 +262,7 @@ EdgeEnds ends_around(const ConvoyRobot& robot, int of) noexcept {
   Vec2 sum;
   for (const Vec2 end : ends.all()) sum += unit(end - center);
   if (static_cast<int>(ends.size) < degree_of(robot, of) && sum != Vec2{})
-    ends.add(center + unheard_direction(robot, center, -unit(sum)) * (unheard_at * robot.params.communication_range_m));
+    ends.add(center + unheard_direction(robot, center, -unit(sum)) * unheard_at);
   return ends;
 }
 
@@ -275,25 +274,24 @@ float obstruction_of(const ConvoyRobot& robot, const EdgeEnds& ends, int of, Vec
   for (int k = 0; k < table.size(); ++k) {
     if (!table.alive(k)) continue;
     const Vec2 at = table.position(k);
-    if (k != of && distance(place, at) < p.spare_avoidance_m) count += costs_crowd;
+    if (k != of && distance(place, at) < p.spare_avoidance) count += costs_crowd;
     // It is to hide no edge.
     const TreeStanding& m = table.message(k);
     const int up = m.role == Role::spare ? -1 : table.find(up_of(m));
-    if (up >= 0 && distance_to_segment(place, at, table.position(up)) < p.clearance_m) count += costs_crowd;
+    if (up >= 0 && distance_to_segment(place, at, table.position(up)) < p.clearance) count += costs_crowd;
     if (up >= 0 && p.line_of_sight && crosses(place, at, table.position(up))) count += costs_crowd;
     if (!p.line_of_sight) continue;
     for (const Vec2 end : ends.all())
-      if (at != end && distance_to_segment(at, place, end) < hides * p.clearance_m) count += costs_hidden;
+      if (at != end && distance_to_segment(at, place, end) < hides * p.clearance) count += costs_hidden;
   }
-  return count * p.communication_range_m;
+  return count;
 }
 
 // How bad that place is. m.
 float cost_of(const ConvoyRobot& robot, const EdgeEnds& ends, int of, Vec2 place) noexcept {
-  const float c = robot.params.communication_range_m;
-  float longest_m = 0.0F;
-  for (const Vec2 end : ends.all()) longest_m = std::max(longest_m, distance(place, end));
-  return longest_m + (longest_m > reach * c ? c : 0.0F) + costs_way * norm(place) +
+  float longest = 0.0F;
+  for (const Vec2 end : ends.all()) longest = std::max(longest, distance(place, end));
+  return longest + (longest > reach ? 1.0F : 0.0F) + costs_way * norm(place) +
          obstruction_of(robot, ends, of, place);
 }
 
@@ -309,7 +307,7 @@ bool needs_companion(const ConvoyRobot& robot, int k) noexcept {
   if (may_fold(robot) && !is_under_way(m)) return says_it_lacks(robot, k);
   const EdgeEnds ends = known_ends_around(robot, k);
   const bool knows_all = static_cast<int>(ends.size) + (up_of(m) == robot.self.id ? 1 : 0) >= degree;
-  return !knows_all || holds_together(robot, table.position(k), ends.all(), m.want_cm > 0);
+  return !knows_all || holds_together(robot, table.position(k), ends.all(), m.want > 0);
 }
 
 int count_companions(const ConvoyRobot& robot, RobotId of) noexcept {
@@ -351,19 +349,19 @@ bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept {
   const Vec2 from = table.position(*child);
   const Vec2 to = table.position(robot.parent);
   const Vec2 near = nearest_on_segment(from, to);
-  const float reach_m = saves ? thrifty_m(p, p.merge_distance_m) : folded_reach_m(p);
-  if (distance(from, to) > reach_m || norm(near) > aside * p.clearance_m) return false;
+  const float reach = saves ? thrifty(p, p.merge_distance) : folded_reach(p);
+  if (distance(from, to) > reach || norm(near) > aside * p.clearance) return false;
   const Vec2 left = left_of(unit(to - from));
   constexpr float pace = 0.7F;
   way = (dot(near, left) > 0.0F ? -left : left) * pace;
   return true;
 }
 
-float companion_way_m(const ConvoyRobot& robot, int of) noexcept {
+float companion_width(const ConvoyRobot& robot, int of) noexcept {
   const ConvoyParams& p = robot.params;
   if (!p.line_of_sight) return 0.0F;
   constexpr float under_way = 2.0F;
-  return (robot.table().range(of) > from_afar * p.companion_distance_m ? under_way : edge_room) * p.clearance_m;
+  return (robot.table().range(of) > from_afar * p.companion_distance ? under_way : edge_room) * p.clearance;
 }
 
 Vec2 companion_motion(const ConvoyRobot& robot, int of) noexcept {
@@ -378,18 +376,18 @@ Vec2 companion_motion(const ConvoyRobot& robot, int of) noexcept {
   const Vec2 step = unit_vector(turn);
   Vec2 direction = left_of(axis);
   for (int k = 0; k < places; ++k, direction = rotate(step, direction)) {
-    const Vec2 place = center + direction * p.companion_distance_m;
+    const Vec2 place = center + direction * p.companion_distance;
     const float cost = cost_of(robot, ends, of, place);
     if (cost >= least) continue;
     least = cost;
     best = place;
   }
   const float d = norm(best);
-  const float slow = std::min(1.0F, d / (near_place * p.communication_range_m));
+  const float slow = std::min(1.0F, d / near_place);
   // Not through the robot itself.
-  const float room_m = keeps_off * p.companion_distance_m;
+  const float room = keeps_off * p.companion_distance;
   const Vec2 off =
-      table.range(of) < room_m ? -unit(center) * (room_m / std::max(table.range(of), least_range_m) - 1.0F) : Vec2{};
+      table.range(of) < room ? -unit(center) * (room / std::max(table.range(of), least_range) - 1.0F) : Vec2{};
   return bypass(robot, best) * slow + off;
 }
 

@@ -50,51 +50,50 @@ bool may_fold(const ConvoyRobot& robot) noexcept {
 
 bool folds(const ConvoyRobot& robot) noexcept {
   return may_fold(robot) && prunes(robot.params) && robot.self.subtree_workers > 0 &&
-         robot.self.want_m < folds_from_m && robot.self.call_hops >= companion_call;
+         robot.self.want < folds_from && robot.self.call_hops >= companion_call;
 }
 
-float folded_reach_m(const ConvoyParams& params) noexcept { return relied_on * params.communication_range_m; }
+float folded_reach(const ConvoyParams&) noexcept { return relied_on; }
 
-float folded_edge_m(const ConvoyParams& params) noexcept {
-  return folded_reach_m(params) / static_cast<float>(params.link_redundancy);
+float folded_edge(const ConvoyParams& params) noexcept {
+  return folded_reach(params) / static_cast<float>(params.link_redundancy);
 }
 
 bool wants_fold(const ConvoyRobot& robot) noexcept {
-  if (!folds(robot) || (robot.self.is_worker && robot.self.want_m > 0.0F)) return false;
+  if (!folds(robot) || (robot.self.is_worker && robot.self.want > 0.0F)) return false;
   const TreeTable& table = robot.table();
-  return table.range(robot.parent) > folded_edge_m(robot.params) || table.age(robot.parent) > unheard_ticks;
+  return table.range(robot.parent) > folded_edge(robot.params) || table.age(robot.parent) > unheard_ticks;
 }
 
 bool is_off_middle(const ConvoyRobot& robot, int owner, int parent) noexcept {
   const TreeTable& table = robot.table();
   const ConvoyParams& p = robot.params;
-  const float edge_m = distance(table.position(owner), table.position(parent));
-  if (!may_fold(robot) || is_under_way(table.message(owner)) || edge_m > folded_reach_m(p)) return false;
+  const float edge = distance(table.position(owner), table.position(parent));
+  if (!may_fold(robot) || is_under_way(table.message(owner)) || edge > folded_reach(p)) return false;
   return std::max(table.range(owner), table.range(parent)) >
-         std::max(0.5F * edge_m, folded_edge_m(p)) + off_middle * p.communication_range_m;
+         std::max(0.5F * edge, folded_edge(p)) + off_middle;
 }
 
 bool leads_travelling(const ConvoyRobot& robot, int k) noexcept {
   const TreeStanding& m = robot.table().message(k);
-  return may_fold(robot) && m.role == Role::worker && m.want_cm > 0 && up_of(m) != nobody &&
+  return may_fold(robot) && m.role == Role::worker && m.want > 0 && up_of(m) != nobody &&
          robot.convoy_of(k).child_count == 0;
 }
 
 Vec2 folding_motion(const ConvoyRobot& robot) noexcept {
-  const float c = robot.params.communication_range_m;
-  const float edge_m = folded_edge_m(robot.params);
+  const float edge = folded_edge(robot.params);
   const TreeTable& table = robot.table();
   Vec2 u;
   for (const int k : robot.children)
     if (table.message(k).role != Role::spare)
-      u += unit(table.position(k)) * ramp(table.range(k), edge_m - taut_below * c, taut_width * c);
-  if (robot.parent < 0 || robot.self.want_m > 0.0F) return u;  // the last bit of the way it is towed
+      u += unit(table.position(k)) * ramp(table.range(k), edge - taut_below, taut_width);
+  if (robot.parent < 0 || robot.self.want > 0.0F) return u;  // the last bit of the way it is towed
   const Vec2 up = unit(table.position(robot.parent));
-  return u + up * ramp(table.range(robot.parent), edge_m - gives_below * c, gives_width * edge_m) +
+  return u + up * ramp(table.range(robot.parent), edge - gives_below, gives_width * edge) +
          look_past(robot, up);
 }
 
-Vec2 clear_folds(const ConvoyRobot& robot, float width_m) noexcept {
+Vec2 clear_folds(const ConvoyRobot& robot, float width) noexcept {
   Vec2 u;
   if (!may_fold(robot)) return u;
   const TreeTable& table = robot.table();
@@ -106,16 +105,16 @@ Vec2 clear_folds(const ConvoyRobot& robot, float width_m) noexcept {
     if (over < 0) return;
     const Vec2 a = table.position(k);
     const Vec2 b = table.position(over);
-    if (distance(a, b) > robot.params.communication_range_m) return;
+    if (distance(a, b) > 1.0F) return;
     const Vec2 along = unit(b - a);
     const Vec2 mid = table.position(middle);
     Vec2 out = left_of(along);
     if (dot(out, mid - a) > 0.0F) out = -out;
     const float beyond = -dot(out, a);
     const float on = -dot(along, a);
-    if (beyond > width_m || on < 0.0F || on > distance(a, b)) return;
+    if (beyond > width || on < 0.0F || on > distance(a, b)) return;
     // In the triangle of the three the edges would push it back: it crosses the line.
-    if (beyond > 0.0F) u += out * push_off_line(beyond, width_m);
+    if (beyond > 0.0F) u += out * push_off_line(beyond, width);
     else if (cross(mid - a, -a) * cross(mid - b, -b) < 0.0F && beyond > dot(out, mid - a)) u += out * pushes_through;
   });
   return u * robot.params.corridor_gain;

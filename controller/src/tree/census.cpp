@@ -17,7 +17,7 @@ struct Sums {
   int children = 0;
   Vec2 pull;
   int pulling = 0;
-  float want_m = 0.0F;
+  float want = 0.0F;
 };
 
 // `counts`: whether the child belongs to the tree that is being counted; its pull counts always.
@@ -26,7 +26,7 @@ void add_child(const TreeRobot& robot, int k, bool counts, Sums& sums) noexcept 
   if (up_of(m) != robot.self.id) return;  // its vectors are addressed to another robot
   const Vec2 sender = robot.table().position(k);
   if (counts) {
-    sums.a += from_edge_frame({m.q_x_m, m.q_y_m}, sender);
+    sums.a += from_edge_frame({m.q_x, m.q_y}, sender);
     sums.robots += m.subtree;
     sums.workers += m.subtree_workers;
     sums.counts += m.count;
@@ -36,24 +36,24 @@ void add_child(const TreeRobot& robot, int k, bool counts, Sums& sums) noexcept 
   sums.pull +=
       from_edge_frame({static_cast<float>(m.pull_x) / pull_unit, static_cast<float>(m.pull_y) / pull_unit}, sender);
   ++sums.pulling;
-  sums.want_m = std::max(sums.want_m, static_cast<float>(m.want_cm) * 0.01F);
+  sums.want = std::max(sums.want, from_fixed(m.want));
 }
 
 // u_target = tau (l - p) / |l - p|, fading on arrival so that the worker does not chatter (protocol 9).
-void add_own_target(const TreeRobot& robot, float rest_distance_m, Sums& sums) noexcept {
+void add_own_target(const TreeRobot& robot, float rest_distance, Sums& sums) noexcept {
   const TreeParams& p = robot.params;
-  const float distance_m = norm(*robot.target);
-  sums.pull = unit(*robot.target) * (p.target_gain * std::min(1.0F, distance_m / p.arrival_distance_m));
+  const float away = norm(*robot.target);
+  sums.pull = unit(*robot.target) * (p.target_gain * std::min(1.0F, away / p.arrival_distance));
   sums.pulling = 1;
-  if (distance_m > rest_distance_m) sums.want_m = std::max(sums.want_m, distance_m);  // its own and that of all below
+  if (away > rest_distance) sums.want = std::max(sums.want, away);  // its own and that of all below
 }
 
 // How long the workers below have not come any nearer to their targets.
 void watch_progress(const TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
-  constexpr float hand_m = 0.1F;
-  if (self.want_m > self.least_want_m + hand_m || self.want_m < self.least_want_m - hand_m) {
-    self.least_want_m = self.want_m;
+  constexpr float hand = 0.05F;
+  if (self.want > self.least_want + hand || self.want < self.least_want - hand) {
+    self.least_want = self.want;
     self.stalled_ticks = 0;
   } else {
     robot.add_elapsed(self.stalled_ticks);
@@ -62,8 +62,8 @@ void watch_progress(const TreeRobot& robot) noexcept {
 
 // Turned into the edge frame, a component grows by up to sqrt 2.
 Vec2 sendable(Vec2 q) noexcept {
-  constexpr float limit_m = 0.5F * q_limit_m;
-  return {std::clamp(q.x, -limit_m, limit_m), std::clamp(q.y, -limit_m, limit_m)};
+  constexpr float limit = 0.5F * q_limit;
+  return {std::clamp(q.x, -limit, limit), std::clamp(q.y, -limit, limit)};
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ Vec2 algorithm1_contribution(Vec2 a, std::uint32_t descendants, Vec2 parent) noe
   return a - parent * static_cast<float>(descendants + 1);
 }
 
-void take_census(TreeRobot& robot, float rest_distance_m, float own_want_m) noexcept {
+void take_census(TreeRobot& robot, float rest_distance, float own_want) noexcept {
   TreeState& self = robot.self;
   Sums sums;
   if (self.is_worker) sums.workers = 1;
@@ -89,15 +89,15 @@ void take_census(TreeRobot& robot, float rest_distance_m, float own_want_m) noex
   for (const int k : robot.children) add_child(robot, k, true, sums);
   if (!selecting || robot.children.size == 0)
     for (const int k : robot.old_children) add_child(robot, k, !selecting, sums);
-  if (self.is_worker && robot.target != nullptr) add_own_target(robot, rest_distance_m, sums);
+  if (self.is_worker && robot.target != nullptr) add_own_target(robot, rest_distance, sums);
   // Sent, but not yet told where to: it has not arrived.
-  else if (self.is_worker) sums.want_m = std::max(sums.want_m, robot.params.communication_range_m);
-  sums.want_m = std::max(sums.want_m, own_want_m);
+  else if (self.is_worker) sums.want = std::max(sums.want, 1.0F);
+  sums.want = std::max(sums.want, own_want);
 
   self.subtree = saturated(sums.robots);
   self.subtree_workers = saturated(sums.workers);
   self.count = saturated(algorithm2_count(sums.children, sums.counts, self.depth), UINT16_MAX);
-  self.want_m = sums.want_m;
+  self.want = sums.want;
   watch_progress(robot);
   self.pull = sums.pulling > 0 ? sums.pull / static_cast<float>(sums.pulling) : Vec2{};
 

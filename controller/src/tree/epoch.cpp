@@ -8,7 +8,7 @@ void begin_epoch(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
   robot.retire_parent();
   self.committed = false;
-  self.label_cm = unknown_label;
+  self.label = unknown_label;
   self.label_wait_ticks = 0;
   self.seqno = 0;
   self.seqno_ticks = 0;
@@ -93,7 +93,7 @@ void advance(TreeRobot& robot, bool tree_complete, bool may_reconstruct, int pat
         enter(robot, self.epoch, Phase::grow_tree);
       break;
     case Phase::grow_tree:
-      if (self.phase_ticks >= p.ticks(p.reconfiguration_period_s) && may_reconstruct)
+      if (self.phase_ticks >= p.rounds(p.reconfiguration_drives) && may_reconstruct)
         enter(robot, self.epoch, Phase::select_root);
       break;
     default: break;  // SELECT ROOT ends with the root's next epoch (root_selection.hpp)
@@ -101,7 +101,7 @@ void advance(TreeRobot& robot, bool tree_complete, bool may_reconstruct, int pat
 }
 
 void advance(TreeRobot& robot, bool tree_complete) noexcept {
-  advance(robot, tree_complete, true, robot.params.ticks(robot.params.barrier_timeout_s));
+  advance(robot, tree_complete, true, whole(robot.params.barrier_rounds));
 }
 
 }  // namespace banyan

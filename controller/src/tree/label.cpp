@@ -11,12 +11,12 @@ namespace {
 // Whether a neighbour without a label is nearer to me and to neighbour `k` than we two are to each other.
 bool somebody_between(const TreeRobot& robot, int k) noexcept {
   const TreeTable& table = robot.table();
-  const float range_m = table.range(k);
+  const float range = table.range(k);
   for (int j = 0; j < table.size(); ++j) {
     const TreeStanding& m = table.message(j);
-    if (!table.alive(j) || (m.epoch == robot.self.epoch && m.label_cm != unknown_label) || table.range(j) >= range_m)
+    if (!table.alive(j) || (m.epoch == robot.self.epoch && m.label != unknown_label) || table.range(j) >= range)
       continue;
-    if (distance(table.position(j), table.position(k)) < range_m) return true;
+    if (distance(table.position(j), table.position(k)) < range) return true;
   }
   return false;
 }
@@ -30,21 +30,21 @@ void take_label(TreeRobot& robot, const LabelRule& rule) noexcept {
   const TreeTable& table = robot.table();
   int best = -1;
   std::uint16_t best_label = unknown_label;
-  float nearest_m = robot.params.communication_range_m;
+  float nearest = 1.0F;
   for (int k = 0; k < table.size(); ++k) {
     const TreeStanding& m = table.message(k);
-    if (!table.alive(k) || m.epoch != self.epoch || m.label_cm == unknown_label) continue;
-    if (table.range(k) > rule.reach_m) continue;
-    nearest_m = std::min(nearest_m, table.range(k));
-    const std::uint16_t label = label_below(m.label_cm, table.range(k));
+    if (!table.alive(k) || m.epoch != self.epoch || m.label == unknown_label) continue;
+    if (table.range(k) > rule.reach) continue;
+    nearest = std::min(nearest, table.range(k));
+    const std::uint16_t label = label_below(m.label, table.range(k));
     if (label < best_label) best_label = label, best = k;
   }
   if (best < 0) return;
-  const bool far = nearest_m > far_off * robot.params.communication_range_m;
+  const bool far = nearest > far_off;
   if (self.label_wait_ticks++ < (far ? wait_far_ticks : wait_ticks) &&
       (rule.waits_for_anybody || somebody_between(robot, best)))
     return;
-  self.label_cm = best_label;
+  self.label = best_label;
   self.flood_parent = table.id(best);
 }
 
@@ -61,7 +61,7 @@ void echo(TreeRobot& robot) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     if (table.age(k) > echo_silence_ticks) continue;
     const TreeStanding& m = table.message(k);
-    if (m.epoch != self.epoch || m.label_cm == unknown_label) {
+    if (m.epoch != self.epoch || m.label == unknown_label) {
       done = false;
     } else if (m.flood_parent == self.id) {
       done = done && m.flood_done;
@@ -76,14 +76,14 @@ void echo(TreeRobot& robot) noexcept {
 
 }  // namespace
 
-std::uint16_t edge_cm(float range_m) noexcept {
-  constexpr float longest_edge_cm = 60000.0F;  // far below the numbers that mean something else
-  return static_cast<std::uint16_t>(std::clamp(range_m * 100.0F + 0.5F, 1.0F, longest_edge_cm));
+std::uint16_t edge_label(float range) noexcept {
+  constexpr float longest = 60000.0F;  // far below the numbers that mean something else
+  return static_cast<std::uint16_t>(std::clamp(range * per_range + 0.5F, 1.0F, longest));
 }
 
-std::uint16_t label_below(std::uint16_t label_cm, float range_m) noexcept {
+std::uint16_t label_below(std::uint16_t label, float range) noexcept {
   return static_cast<std::uint16_t>(
-      std::min<std::uint32_t>(std::uint32_t{label_cm} + edge_cm(range_m), unknown_label - 1));
+      std::min<std::uint32_t>(std::uint32_t{label} + edge_label(range), unknown_label - 1));
 }
 
 void update_label(TreeRobot& robot, const LabelRule& rule) noexcept {
@@ -91,11 +91,11 @@ void update_label(TreeRobot& robot, const LabelRule& rule) noexcept {
   if (self.phase == Phase::init) return;
   if (robot.is_root()) {
     // A root by hand-over keeps its label until the epoch that it opens.
-    if (self.phase == Phase::start_tree) self.label_cm = 0;
-  } else if (self.label_cm == unknown_label) {
+    if (self.phase == Phase::start_tree) self.label = 0;
+  } else if (self.label == unknown_label) {
     take_label(robot, rule);
   }
-  if (self.phase == Phase::start_tree && self.label_cm != unknown_label) echo(robot);
+  if (self.phase == Phase::start_tree && self.label != unknown_label) echo(robot);
 }
 
 }  // namespace banyan

@@ -22,7 +22,7 @@ int edges_to(const TreeRobot& robot, int k) noexcept {
   return robot.reading.counts_edges_once ? 1 : static_cast<int>(in_new) + static_cast<int>(in_old);
 }
 
-// u^tree,new + u^tree,old. Each term is clamped: at 20 cm the law says -4000.
+// u^tree,new + u^tree,old. Each term is clamped: at a tenth of C the law says -4000.
 Vec2 tree_force(const TreeRobot& robot) noexcept {
   Vec2 u;
   for_each_tree_neighbor(robot, [&](int k) {
@@ -41,30 +41,30 @@ Vec2 adjust_position(const TreeRobot& robot) noexcept {
   const Vec2 reference = robot.table().position(k);
   const float d = norm(reference);
   if (!robot.reading.spares_stand_still) {
-    if (d > p.safe_range_m) return unit(reference);
+    if (d > p.safe_range) return unit(reference);
     return unit(Vec2{reference.y, -reference.x}) * p.target_gain + avoidance(robot);
   }
   // A spare next to the tree stays within reach of its edges; a crowd far from the tree stays spread out.
-  const float reach_m = robot.table().message(k).role != Role::spare ? 0.5F * p.recruitment_distance_m : p.safe_range_m;
-  const bool called = robot.self.called && d > p.avoidance_range_m;
-  return d > reach_m || called ? unit(reference) + avoidance(robot) : avoidance(robot);
+  const float reach = robot.table().message(k).role != Role::spare ? 0.5F * p.recruitment_distance : p.safe_range;
+  const bool called = robot.self.called && d > p.avoidance_range;
+  return d > reach || called ? unit(reference) + avoidance(robot) : avoidance(robot);
 }
 
 }  // namespace
 
 Vec2 avoidance(const TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
-  const float a = robot.params.avoidance_range_m;
+  const float a = robot.params.avoidance_range;
   Vec2 u;
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
-    if (d >= a || d <= same_spot_m || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
+    if (d >= a || d <= same_spot || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
     u += table.position(k) * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
   }
   if (!robot.reading.avoids_obstacles) return u;
   for (const Vec2 o : robot.obstacles) {
     const float d = norm(o);
-    if (d < a && d > same_spot_m) u += o * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
+    if (d < a && d > same_spot) u += o * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
   }
   return u;
 }
@@ -77,8 +77,8 @@ Vec2 spring_motion(const TreeRobot& robot) noexcept {
   const bool silent = up >= 0 && !robot.is_linked(up);
   if (robot.reading.keeps_links && up < 0 && !robot.is_root() && robot.table().size() == 0) return {};  // none heard
   // Emergency: u = p_parent, at full speed; towards a silent parent's estimated position.
-  if (up >= 0 && (d > p.ideal_distance_m || silent)) return unit(parent);
-  if (is_orphan(robot)) return d > p.safe_range_m ? unit(parent) : Vec2{};
+  if (up >= 0 && (d > p.ideal_distance || silent)) return unit(parent);
+  if (is_orphan(robot)) return d > p.safe_range ? unit(parent) : Vec2{};
   const Vec2 u = clamped(robot.self.pull + avoidance(robot), 1.0F);
   return tree_force(robot) + (up >= 0 ? safe_part(u, parent, p, robot.reading) : u);
 }
@@ -90,23 +90,22 @@ Vec2 attendance_motion(const TreeRobot& robot) noexcept {
   return adjust_position(robot);
 }
 
-float interaction(float distance_m, const TreeParams& params) noexcept {
-  const float d = distance_m * 100.0F;
-  const float s = params.ideal_distance_m / distance_m;
+float interaction(float length, const TreeParams& params) noexcept {
+  const float s = params.ideal_distance / length;
   const float s2 = s * s;
-  return distance_m > same_spot_m ? params.interaction_gain / d * (s2 - s2 * s2) : -1.0F;
+  return length > same_spot ? params.interaction_gain / length * (s2 - s2 * s2) : -1.0F;
 }
 
 Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params, const Reading& reading) noexcept {
   const float d = norm(parent);
-  if (d <= params.safe_range_m) return u;
+  if (d <= params.safe_range) return u;
   if (!reading.slides_beyond_safe) return {};
   const Vec2 away = -parent / d;
   return u - away * std::max(0.0F, dot(u, away));
 }
 
 Vec2 allowed(Vec2 u, const Guard& guard, const TreeParams& params) noexcept {
-  return clamped(guard.apply(clamped(u, 1.0F) * params.speed_gain_m_s), params.wheel_limit_m_s);
+  return clamped(guard.apply(clamped(u, 1.0F) * params.speed_gain), 1.0F);
 }
 
 }  // namespace banyan

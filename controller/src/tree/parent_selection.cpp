@@ -41,8 +41,8 @@ int flood_parent(const TreeRobot& robot, const ParentRule& rule) noexcept {
   const int k = robot.table().find(self.flood_parent);
   if (k < 0 || !robot.is_sure(k)) return -1;
   const TreeStanding& m = robot.table().message(k);
-  const bool near = robot.table().range(k) <= longest_link * robot.params.communication_range_m;
-  return near && may_relay(rule, m) && m.epoch == self.epoch && m.label_cm < self.label_cm && is_ahead(robot, k) ? k
+  const bool near = robot.table().range(k) <= longest_link;
+  return near && may_relay(rule, m) && m.epoch == self.epoch && m.label < self.label && is_ahead(robot, k) ? k
                                                                                                                  : -1;
 }
 
@@ -52,14 +52,14 @@ int nearest_committed(const TreeRobot& robot, const ParentRule& rule) noexcept {
   return least_of(table.size(), not_counted, [&](int k) {
     const TreeStanding& m = table.message(k);
     const bool may = robot.is_sure(k) && may_relay(rule, m) && m.epoch == robot.self.epoch && m.committed &&
-                     m.label_cm != unknown_label && is_ahead(robot, k) && table.range(k) <= robot.parent_range_m();
+                     m.label != unknown_label && is_ahead(robot, k) && table.range(k) <= robot.parent_range();
     return may ? table.range(k) : not_counted;
   });
 }
 
 void join(TreeRobot& robot, const ParentRule& rule) noexcept {
   TreeState& self = robot.self;
-  if (self.label_cm == unknown_label || !rule.may_join) return;
+  if (self.label == unknown_label || !rule.may_join) return;
   int k = choose_parent(robot, rule, false);
   if (k < 0) {
     if (self.search_ticks < UINT16_MAX) ++self.search_ticks;
@@ -82,14 +82,14 @@ void repair(TreeRobot& robot, const ParentRule& rule) noexcept {
 
 // The neighbour through which the rooted tree is nearest: a robot of the tree, or a free spare that can be
 // drafted towards it. Never an orphan: it might be below me in the tree.
-int way_to_tree(const TreeRobot& robot, const ParentRule& rule, float range_m) noexcept {
+int way_to_tree(const TreeRobot& robot, const ParentRule& rule, float range) noexcept {
   const TreeTable& table = robot.table();
   int best = -1;
   const auto key = [&](int k) { return std::pair(table.message(k).tree_hops, table.range(k)); };
   for (int k = 0; k < table.size(); ++k) {
     const TreeStanding& m = table.message(k);
     if (!robot.is_sure(k) || !may_relay(rule, m) || m.epoch != robot.self.epoch || m.tree_hops == unreachable) continue;
-    if (!is_ahead(robot, k) || m.old_parent == robot.self.id || table.range(k) > range_m) continue;
+    if (!is_ahead(robot, k) || m.old_parent == robot.self.id || table.range(k) > range) continue;
     if (best < 0 || key(k) < key(best)) best = k;
   }
   return best;
@@ -106,9 +106,9 @@ void reattach_orphan(TreeRobot& robot, const ParentRule& rule) noexcept {
   if (self.orphan_ticks < UINT16_MAX) ++self.orphan_ticks;
   const bool drafted = self.parent == nobody && !self.is_worker;
   if (self.orphan_ticks <= (drafted ? drafted_attach_ticks : orphan_attach_ticks)) return;
-  const float last_resort_m = longest_link * robot.params.communication_range_m;
-  int k = way_to_tree(robot, rule, std::min(robot.parent_range_m(), last_resort_m));
-  if (k < 0) k = way_to_tree(robot, rule, last_resort_m);
+  const float last_resort = longest_link;
+  int k = way_to_tree(robot, rule, std::min(robot.parent_range(), last_resort));
+  if (k < 0) k = way_to_tree(robot, rule, last_resort);
   if (k < 0) return;
   take_parent(robot, k);
   self.orphan_ticks = orphan_still_ticks;  // time for the new parent to attach in turn
@@ -135,7 +135,7 @@ void update_seqno(TreeRobot& robot) noexcept {
   const bool was_fresh = self.seqno_ticks < serial_half_range;
   robot.add_elapsed(self.seqno_ticks);
   // So old that others could take it for new: this robot no longer has a place in the order (serial.hpp).
-  if (was_fresh && self.seqno_ticks >= serial_half_range && !robot.is_root()) self.label_cm = unknown_label;
+  if (was_fresh && self.seqno_ticks >= serial_half_range && !robot.is_root()) self.label = unknown_label;
   if (robot.is_root()) {
     ++self.seqno;
     self.seqno_ticks = 0;
@@ -189,16 +189,16 @@ void update_tree_hops(TreeRobot& robot) noexcept {
 bool is_candidate(const TreeRobot& robot, int k, bool workers_relay) noexcept {
   const TreeStanding& m = robot.table().message(k);
   // An edge that exists may be as long as the guard lets it grow.
-  const float range_m = std::max(robot.parent_range_m(), k == robot.old_parent ? robot.params.ideal_distance_m : 0.0F);
+  const float range = std::max(robot.parent_range(), k == robot.old_parent ? robot.params.ideal_distance : 0.0F);
   return robot.is_sure(k) && (m.role != Role::worker || workers_relay) && m.epoch == robot.self.epoch &&
-         m.label_cm < robot.self.label_cm && is_ahead(robot, k) && robot.table().range(k) <= range_m;
+         m.label < robot.self.label && is_ahead(robot, k) && robot.table().range(k) <= range;
 }
 
 bool is_ahead(const TreeRobot& robot, int k) noexcept {
   const TreeStanding& m = robot.table().message(k);
   const TreeState& self = robot.self;
-  if (m.epoch != self.epoch || m.label_cm >= largest_label) return false;  // nothing fits behind the largest label
-  return m.seqno != self.seqno ? is_news(m.seqno, self.seqno, self.seqno_ticks) : m.label_cm < self.label_cm;
+  if (m.epoch != self.epoch || m.label >= largest_label) return false;  // nothing fits behind the largest label
+  return m.seqno != self.seqno ? is_news(m.seqno, self.seqno, self.seqno_ticks) : m.label < self.label;
 }
 
 bool is_named_parent(const TreeRobot& robot) noexcept {
@@ -208,15 +208,15 @@ bool is_named_parent(const TreeRobot& robot) noexcept {
 void keep_up(TreeRobot& robot, int k) noexcept {
   TreeState& self = robot.self;
   const TreeStanding& m = robot.table().message(k);
-  if (m.epoch != self.epoch || m.label_cm >= largest_label || !is_news(m.seqno, self.seqno, self.seqno_ticks)) return;
+  if (m.epoch != self.epoch || m.label >= largest_label || !is_news(m.seqno, self.seqno, self.seqno_ticks)) return;
   self.seqno = m.seqno;
   self.seqno_ticks = 0;
   // A newer number permits a smaller label. Labels that only grew would in a long epoch reach the largest one, behind
   // which there is no place.
-  const std::uint16_t below_cm = label_below(m.label_cm, robot.table().range(k));
+  const std::uint16_t below = label_below(m.label, robot.table().range(k));
   const bool renews = robot.reading.renews_labels && self.phase >= Phase::grow_tree;
-  if (self.label_cm == unknown_label || self.label_cm <= m.label_cm || (renews && self.label_cm > below_cm))
-    self.label_cm = below_cm;
+  if (self.label == unknown_label || self.label <= m.label || (renews && self.label > below))
+    self.label = below;
 }
 
 void take_parent(TreeRobot& robot, int k) noexcept {
@@ -227,8 +227,8 @@ void take_parent(TreeRobot& robot, int k) noexcept {
   self.pending_parent = nobody;
   keep_up(robot, k);
   // A robot without a label that is as fresh as its parent must not be ahead of it.
-  if (robot.reading.keeps_links && self.label_cm == unknown_label)
-    self.label_cm = label_below(robot.table().message(k).label_cm, robot.table().range(k));
+  if (robot.reading.keeps_links && self.label == unknown_label)
+    self.label = label_below(robot.table().message(k).label, robot.table().range(k));
   if (self.phase >= Phase::grow_tree) robot.drop_old_parent();
 }
 

@@ -15,14 +15,14 @@ namespace {
 int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit, bool leaves) noexcept {
   const TreeState& self = robot.self;
   const TreeTable& table = robot.table();
-  const float reach_m = robot.params.communication_range_m * (robot.reading.keeps_links ? longest_link : 1.0F);
+  const float reach = robot.reading.keeps_links ? longest_link : 1.0F;
   const Vec2 place = leaves ? Vec2{} : self.centroid;
-  const float limit_m = leaves ? reach_m : norm(place) - robot.params.centroid_margin_m;
-  return least_of(table.size(), limit_m, [&](int k) {
+  const float limit = leaves ? reach : norm(place) - robot.params.centroid_margin;
+  return least_of(table.size(), limit, [&](int k) {
     const TreeStanding& m = table.message(k);
     const bool may = table.age(k) == 0 && m.role != Role::worker && m.epoch == self.epoch &&
-                     table.range(k) <= reach_m && may_inherit(k);
-    return may ? distance(table.position(k), place) : limit_m;
+                     table.range(k) <= reach && may_inherit(k);
+    return may ? distance(table.position(k), place) : limit;
   });
 }
 
@@ -50,7 +50,7 @@ const TreeMessage* accept_offer(TreeRobot& robot) noexcept {
     if (!newer(offered, self.root)) continue;
     self.root = offered;
     accepted = &m;
-    self.centroid = from_edge_frame({metres(m.centroid_x_cm), metres(m.centroid_y_cm)}, h.position);
+    self.centroid = from_edge_frame({m.centroid_x.value(), m.centroid_y.value()}, h.position);
     self.centroid_known = true;
     self.new_root = nobody;
     robot.retire_parent();  // their edge stays an edge of the tree until GROW TREE (protocol 8)
@@ -72,7 +72,7 @@ void select_root(TreeRobot& robot, FunctionRef<bool(int)> may_inherit, bool leav
   }
   if (self.new_root != nobody) {
     robot.add_elapsed(self.offer_ticks);
-    if (self.offer_ticks <= std::max(robot.params.ticks(robot.params.handover_timeout_s), robot.liveness_ticks()))
+    if (self.offer_ticks <= std::max(whole(robot.params.handover_rounds), robot.liveness_ticks()))
       return;
     self.root.sequence = advanced(self.root.sequence, 2);  // beats an acceptance not heard
     self.new_root = nobody;

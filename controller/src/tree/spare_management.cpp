@@ -39,7 +39,7 @@ void follow_grant(TreeRobot& robot) noexcept {
   const bool gone =
       self.grant_ticks > ungranted_limit_ticks(robot) && m.request != self.id && m.inserted_child != self.id;
   const bool timeout =
-      self.grant_ticks > robot.params.ticks(robot.params.insertion_timeout_s) + ungranted_limit_ticks(robot);
+      self.grant_ticks > robot.params.rounds(robot.params.insertion_drives) + ungranted_limit_ticks(robot);
   if (gone || timeout) end_grant(self);
 }
 
@@ -126,7 +126,7 @@ bool spread_call(TreeRobot& robot, const EdgeRule& rule) noexcept {
   const bool unserved = self.role != Role::spare && self.need == Need::need && self.phase == Phase::grow_tree;
   rule.count_waiting(unserved);
   const auto in_vain = [&] {
-    return self.unserved_ticks > 0 && self.unserved_ticks > robot.params.ticks(robot.params.call_after_s);
+    return self.unserved_ticks > 0 && self.unserved_ticks > whole(robot.params.call_after_rounds);
   };
   if (robot.reading.calls_spares && in_vain() && rule.may_call()) self.call_hops = 0;
   else
@@ -145,10 +145,10 @@ void join_edge(TreeRobot& robot, int owner) noexcept {
   const int parent = table.find(table.message(owner).parent);
   if (!is_ahead(robot, parent)) return;  // its sequence number will overtake mine
   const TreeStanding& above = table.message(parent);
-  auto label_cm = static_cast<std::uint16_t>((std::uint32_t{table.message(owner).label_cm} + above.label_cm) / 2);
-  if (label_cm <= above.label_cm) label_cm = label_below(above.label_cm, 0.0F);
-  self.label_cm =
-      is_newer(above.seqno, self.seqno) ? label_cm : std::min(label_cm, self.label_cm);  // never fall back (is_ahead)
+  auto label = static_cast<std::uint16_t>((std::uint32_t{table.message(owner).label} + above.label) / 2);
+  if (label <= above.label) label = label_below(above.label, 0.0F);
+  self.label =
+      is_newer(above.seqno, self.seqno) ? label : std::min(label, self.label);  // never fall back (is_ahead)
   self.seqno = above.seqno;
   self.seqno_ticks = 0;
   take_parent(robot, parent);
@@ -168,7 +168,7 @@ void follow_request(TreeRobot& robot, const EdgeRule& rule) noexcept {
   Vec2 midpoint;
   if (owner < 0 || !table.alive(owner) || !edge_midpoint(robot, self.request, midpoint)) return give_up(self);
   robot.add_elapsed(self.request_ticks);
-  if (self.request_ticks > robot.params.ticks(robot.params.insertion_timeout_s)) return give_up(self);
+  if (self.request_ticks > robot.params.rounds(robot.params.insertion_drives)) return give_up(self);
   const TreeStanding& m = table.message(owner);
   const bool granted = m.grant == self.id;
   self.ungranted_ticks = granted ? std::uint16_t{0} : static_cast<std::uint16_t>(self.ungranted_ticks + 1);
@@ -202,16 +202,16 @@ RobotId nearest_reference(const TreeRobot& robot) noexcept {
   int best = -1;
   // In half hops: among free spares, any but the present reference counts half a hop more.
   int best_hops = std::numeric_limits<int>::max();
-  float best_m = 0.0F;
+  float best_length = 0.0F;
   for (const Rows* const rows : {&table.members, &table.nearest, &table.all()}) {
     if (best >= 0) break;
     rows->for_each([&](int k) {
       const TreeStanding& m = table.message(k);
       const int hops = m.role != Role::spare ? -1 : 2 * m.tree_hops + (table.id(k) != robot.self.reference ? 1 : 0);
-      if (hops > best_hops || (hops == best_hops && table.range(k) >= best_m) || !table.alive(k)) return;
+      if (hops > best_hops || (hops == best_hops && table.range(k) >= best_length) || !table.alive(k)) return;
       best = k;
       best_hops = hops;
-      best_m = table.range(k);
+      best_length = table.range(k);
     });
   }
   return best < 0 ? nobody : table.id(best);
@@ -219,8 +219,8 @@ RobotId nearest_reference(const TreeRobot& robot) noexcept {
 
 bool is_stretched(const TreeRobot& robot) noexcept {
   const TreeState& self = robot.self;
-  return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.recruitment_distance_m &&
-         (!robot.reading.asks_while_wanted || self.want_m > 0.0F);
+  return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.recruitment_distance &&
+         (!robot.reading.asks_while_wanted || self.want > 0.0F);
 }
 
 bool child_in_need(const TreeRobot& robot) noexcept {
@@ -242,7 +242,7 @@ void count_unserved(TreeRobot& robot, bool unserved) noexcept {
 
 bool is_at_midpoint(const TreeRobot& robot, int owner, int parent) noexcept {
   const TreeTable& table = robot.table();
-  return norm((table.position(owner) + table.position(parent)) * 0.5F) <= robot.params.insertion_distance_m;
+  return norm((table.position(owner) + table.position(parent)) * 0.5F) <= robot.params.insertion_distance;
 }
 
 void manage_spares(TreeRobot& robot, const EdgeRule& rule) noexcept {

@@ -41,7 +41,7 @@ void begin_tick(TreeRobot& robot, const Inputs<Heard>& inputs) noexcept {
   robot.is_tree_news = true;
   forget_silent(
       robot, [](int) { return false; }, [](int, int) {});
-  follow_orders(robot, inputs.senses().orders);
+  follow_orders(robot, inputs.orders());
 }
 
 void file_heard(TreeRobot& robot) noexcept {
@@ -53,7 +53,7 @@ void file_heard(TreeRobot& robot) noexcept {
            hold_of(m) == self.id;
   };
   table.begin(robot.elapsed_ticks,
-              robot.reading.filters_positions ? robot.params.wheel_limit_m_s * robot.params.tick_s : 0.0F);
+              robot.reading.filters_positions ? robot.params.way_in_a_round() : 0.0F);
   const bool noisy = table.filter().has_seen_noise();
   for (Heard& h : robot.heard) {
     const TreeMessage& m = *h.message;
@@ -97,7 +97,7 @@ void write_tree(const TreeRobot& robot, TreeMessage& m) noexcept {
   m.parent_silent = self.parent != nobody && !robot.parent_alive();
   m.epoch = self.epoch;
   m.root = self.root;
-  m.label_cm = self.label_cm;
+  m.label = self.label;
   m.seqno = self.seqno;
   m.depth = self.depth;
   m.tree_hops = self.tree_hops;
@@ -113,26 +113,26 @@ void write_tree(const TreeRobot& robot, TreeMessage& m) noexcept {
   m.grant = robot.hold >= 0 && robot.up() < 0 ? robot.table().id(robot.hold) : self.grant;
   m.request = self.request;
   m.inserted_child = self.inserted_child;
-  m.want_cm = to_fixed<std::uint16_t>(self.want_m, per_cm);
+  m.want = to_fixed<std::uint16_t>(self.want, per_range);
   if (const int up = robot.up(); up >= 0) {
     const Vec2 addressee = robot.table().position(up);
     const Vec2 q = to_edge_frame(self.q, addressee);
-    m.q_x_m = q.x, m.q_y_m = q.y;
+    m.q_x = q.x, m.q_y = q.y;
     write_in_edge_frame(self.pull, addressee, pull_unit, m.pull_x, m.pull_y);
   }
   const int heir = robot.table().find(self.new_root);
   if (heir < 0) return;
   const Vec2 addressee = robot.table().position(heir);
   m.new_root = self.new_root;
-  write_in_edge_frame(self.centroid - addressee, addressee, per_cm, m.centroid_x_cm, m.centroid_y_cm);
+  write_in_edge_frame(self.centroid - addressee, addressee, m.centroid_x, m.centroid_y);
 }
 
 Report tree_report(const TreeState& s) noexcept {
   // clang-format off
   return {.role = s.role, .parent = s.parent, .old_parent = s.old_parent, .serves = s.is_worker ? s.id : nobody,
           .root = s.root.id, .root_sequence = s.root.sequence, .epoch = s.epoch, .phase = s.phase, .need = s.need,
-          .spare_state = s.spare_state, .label_cm = s.label_cm == unknown_label ? -1 : s.label_cm, .depth = s.depth,
-          .grant = s.grant, .request = s.request, .want_m = s.want_m, .tally = s.tally};
+          .spare_state = s.spare_state, .label = s.label == unknown_label ? -1.0F : from_fixed(s.label), .depth = s.depth,
+          .grant = s.grant, .request = s.request, .want = s.want, .tally = s.tally};
   // clang-format on
 }
 

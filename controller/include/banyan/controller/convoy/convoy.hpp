@@ -13,7 +13,7 @@
 
 namespace banyan {
 
-// For C = 2 m; lengths scale with C. There is only one reading.
+// There is only one reading.
 [[nodiscard]] ConvoyParams convoy_defaults() noexcept;
 
 [[nodiscard]] ConvoyState initial_convoy_state(RobotId id, bool worker, bool root) noexcept;

@@ -57,8 +57,8 @@ struct ConvoyRobot : HealingRobot {
   return robot.power != nullptr && robot.power->standing(k).leaving;
 }
 
-[[nodiscard]] inline bool sees_clearly(const ConvoyRobot& robot, int k, float clearance_m) noexcept {
-  return sees_clearly(robot, robot.self.corners, k, clearance_m);
+[[nodiscard]] inline bool sees_clearly(const ConvoyRobot& robot, int k, float clearance) noexcept {
+  return sees_clearly(robot, robot.self.corners, k, clearance);
 }
 
 }  // namespace banyan

@@ -16,8 +16,8 @@ inline constexpr int pending_limit_ticks = 15;  // a seqno rests at most this lo
 // Neighbour k belongs to the rooted tree and does not name me as parent: heard this tick or the last.
 [[nodiscard]] bool is_rooted(const ConvoyRobot& robot, int k) noexcept;
 [[nodiscard]] bool is_rooted_in_sight(const ConvoyRobot& robot, int k) noexcept;
-// And it may be my parent now: no farther than range_m, and ahead of me.
-[[nodiscard]] bool may_be_parent(const ConvoyRobot& robot, int k, float range_m) noexcept;
+// And it may be my parent now: no farther than range, and ahead of me.
+[[nodiscard]] bool may_be_parent(const ConvoyRobot& robot, int k, float range) noexcept;
 
 // Neighbour k is a worker at its target, as far as I know where that is: it cannot be towed.
 [[nodiscard]] bool stands_at_target(const ConvoyRobot& robot, int k) noexcept;

@@ -32,7 +32,7 @@ struct ConvoyMemory {
   std::array<RobotId, task_capacity> planned = none();  // hosts of all levels
   RobotId shed = nobody;            // the root: the target that it is giving up, since robots are too few
   std::uint16_t short_ticks = 0;    // spares have been missed for so long without progress:
-  std::uint16_t short_want_cm = 0;  // the least distance that was left since
+  std::uint16_t short_want = 0;  // the least distance that was left since
   std::uint8_t short_reached = 0;   // so many targets were reached
   RobotCount tried_with = 0;        // the most spares with which a target was tried again
   std::array<RobotId, task_capacity> hosts = none();  // the plan: at which target the branch of tasks[k] is to begin
@@ -78,7 +78,7 @@ template <class Visitor, class State> constexpr void visit_convoy_state(Visitor&
     visit(s.hosts[n]), visit(s.planned[n]), visit(s.plan_level[n]);
   }
   visit(s.plan_targets), visit(s.plan_levels), visit(s.plan_steps);
-  visit(s.shed), visit(s.short_ticks), visit(s.short_want_cm), visit(s.short_reached), visit(s.tried_with);
+  visit(s.shed), visit(s.short_ticks), visit(s.short_want), visit(s.short_reached), visit(s.tried_with);
   visit(s.accompanies), visit(s.alone_ticks), visit(s.too_few_to_fold);
   visit(s.corners.pinned), visit(s.corners.seen_from), visit(s.corners.landmarks.size);
   for (int k = 0; k < s.corners.landmarks.size; ++k) visit(s.corners.landmarks.points[static_cast<std::size_t>(k)]);
@@ -86,7 +86,7 @@ template <class Visitor, class State> constexpr void visit_convoy_state(Visitor&
     visit(s.corners.bodies.centers[k]), visit(s.corners.bodies.ids[k]);
   for (int k = 0; k < s.neighbors.size(); ++k) {
     const auto n = static_cast<std::size_t>(k);
-    visit(s.corners.standings[n].hinge_x_cm), visit(s.corners.standings[n].hinge_y_cm),
+    visit(s.corners.standings[n].hinge_x.bits), visit(s.corners.standings[n].hinge_y.bits),
         visit(s.corners.standings[n].pinned);
     visit(s.convoy_standings[n].child_count), visit(s.convoy_standings[n].below);
   }

@@ -27,7 +27,6 @@ struct Member {
 // What a swarm is made for.
 struct Setup {
   std::string reading = "corrected";  // or "literal" (docs/algorithms.md)
-  double scale = 1.0;                 // on the lengths of Table I (paper Sec. IV-C, "rescaled")
   Platform platform;
   double arrival_distance_m = 0.2;                         // the mission's tolerance
   int link_redundancy = 1;                                 // paths between any two targets that share no other robot
@@ -49,7 +48,7 @@ class Algorithm {
   // Their values in that setup, one per row, in the units of the table. Keys that the algorithm does not
   // know are ignored.
   [[nodiscard]] virtual std::vector<float> values(const Setup& setup) const = 0;
-  // The first fault in words ("recruitment_distance_m (E) must be below safe_range_m (S)"), or nothing.
+  // The first fault in words ("recruitment_distance (E) must be below safe_range (S)"), or nothing.
   [[nodiscard]] virtual std::string fault(const Setup& setup) const = 0;
   // Whether it has rules for Setup::link_redundancy above 1.
   [[nodiscard]] virtual bool knows_redundancy() const noexcept { return false; }

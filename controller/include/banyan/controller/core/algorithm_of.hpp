@@ -4,6 +4,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <memory>
 #include <span>
 #include <string>
@@ -32,8 +34,8 @@ template <class Params, class... Tables>
   return bound;
 }
 
-// What a designer meets of an algorithm. Its Params are derived from Platform, which the host fills in; an
-// arrival_distance_m among them is the mission's unless it is set.
+// What a designer meets of an algorithm. Its Params are derived from Machine, which the host's platform fills in; an
+// arrival_distance among them is the mission's unless it is set.
 template <class P> struct Description {
   static P initial_values() noexcept { return {}; }
   static std::vector<BoundParameter> no_table(P&) { return {}; }
@@ -44,24 +46,15 @@ template <class P> struct Description {
   P (*defaults)() noexcept = initial_values;
   std::vector<BoundParameter> (*bind)(P&) = no_table;       // in the order in which they are listed
   std::string_view (*fault)(const P&) noexcept = no_fault;  // the first among values that depend on each other
-  bool follows_range = false;  // lengths among the defaults stand for C = 2 m and grow with it; Table I's are absolute
 };
 
 namespace algorithm_detail {
 
-inline bool in_units_of_range(const ParameterInfo& info) noexcept {
-  return info.scaling == Scaling::range || info.scaling == Scaling::body;
-}
-
-// In the units of the table: the defaults, which `rows` have, scaled, and the setup's own.
-inline std::vector<float> values_of(const Setup& setup, bool follows_range, std::span<const BoundParameter> rows) {
-  const double c = static_cast<double>(setup.platform.communication_range_m);
-  const double scale = setup.scale * (follows_range ? c / static_cast<double>(nominal_range_m) : 1.0);
+// In the units of the table: the defaults, which `rows` have, and the setup's own.
+inline std::vector<float> values_of(const Setup& setup, std::span<const BoundParameter> rows) {
   std::vector<float> values;
   for (const BoundParameter& row : rows) {
     float value = *row.value;
-    if (row.info->scaling == Scaling::mission) value *= static_cast<float>(scale);
-    if (in_units_of_range(*row.info)) value /= nominal_range_m;
     for (const auto& [key, own] : setup.parameters)
       if (row.info->key == key) value = static_cast<float>(own);
     values.push_back(value);
@@ -69,22 +62,28 @@ inline std::vector<float> values_of(const Setup& setup, bool follows_range, std:
   return values;
 }
 
-// Gives them to the parameters; lengths in units of C become metres, once and for all.
-inline void resolve(std::span<const float> values, std::span<const BoundParameter> rows, const Platform& platform) {
-  const float range_m = platform.communication_range_m;
-  // The range for which this body is as large as the nominal one for the nominal range.
-  const float body_range_m = nominal_range_m * platform.wheel_distance_m / Platform{}.wheel_distance_m;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const float unit_m = rows[k].info->scaling == Scaling::body ? std::max(range_m, body_range_m) : range_m;
-    *rows[k].value = in_units_of_range(*rows[k].info) ? values[k] * unit_m : values[k];
-  }
+// Gives them to the parameters; where bodies need room, large ones get more.
+inline void resolve(std::span<const float> values, std::span<const BoundParameter> rows, const Machine& machine) {
+  const float growth = std::max(1.0F, machine.body_radius / Machine{}.body_radius);
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    *rows[k].value = rows[k].info->grows_with_body ? values[k] * growth : values[k];
 }
 
-// The key of the first value out of its range.
+// A number as a user would write it.
+inline std::string plain(float number) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
+  return {text.data(), end};
+}
+
+// The first value out of its range, in words.
 inline std::string range_fault(std::span<const float> values, std::span<const BoundParameter> rows) {
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    if (!(values[k] >= rows[k].info->minimum && values[k] <= rows[k].info->maximum))  // NaN fails too
-      return std::string(rows[k].info->key);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const ParameterInfo& info = *rows[k].info;
+    if (values[k] >= info.minimum && values[k] <= info.maximum) continue;  // NaN fails too
+    return std::string(info.key) + " must be between " + plain(info.minimum) + " and " + plain(info.maximum) + ", not " +
+           plain(values[k]);
+  }
   return {};
 }
 
@@ -106,12 +105,13 @@ template <class A> class AlgorithmOf : public Algorithm {
   }
   [[nodiscard]] std::vector<float> values(const Setup& setup) const override {
     Params params = defaults_on(setup);
-    return algorithm_detail::values_of(setup, of_.follows_range, of_.bind(params));
+    return algorithm_detail::values_of(setup, of_.bind(params));
   }
   [[nodiscard]] std::string fault(const Setup& setup) const override {
+    if (const std::string_view text = machine_fault(machine_of(setup.platform)); !text.empty()) return std::string(text);
     Params params = defaults_on(setup);
     const auto bound = of_.bind(params);
-    const auto values = algorithm_detail::values_of(setup, of_.follows_range, bound);
+    const auto values = algorithm_detail::values_of(setup, bound);
     std::string text = algorithm_detail::range_fault(values, bound);
     if (!text.empty()) return text;
     algorithm_detail::resolve(values, bound, params);
@@ -121,14 +121,14 @@ template <class A> class AlgorithmOf : public Algorithm {
     return requires(Params params) { params.link_redundancy; };
   }
   [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
-    return std::make_unique<SwarmOf<A>>(params(setup), members, setup.history);
+    return std::make_unique<SwarmOf<A>>(params(setup), setup.platform, members, setup.history);
   }
 
  protected:
   [[nodiscard]] Params params(const Setup& setup) const {
     Params params = defaults_on(setup);
     const auto bound = of_.bind(params);
-    algorithm_detail::resolve(algorithm_detail::values_of(setup, of_.follows_range, bound), bound, params);
+    algorithm_detail::resolve(algorithm_detail::values_of(setup, bound), bound, params);
     return params;
   }
 
@@ -136,9 +136,9 @@ template <class A> class AlgorithmOf : public Algorithm {
   // The defaults on the robot, and for the mission, of this setup.
   [[nodiscard]] Params defaults_on(const Setup& setup) const {
     Params params = of_.defaults();
-    static_cast<Platform&>(params) = setup.platform;
-    if constexpr (requires { params.arrival_distance_m; })
-      params.arrival_distance_m = static_cast<float>(setup.arrival_distance_m);
+    static_cast<Machine&>(params) = machine_of(setup.platform);
+    if constexpr (requires { params.arrival_distance; })
+      params.arrival_distance = static_cast<float>(setup.arrival_distance_m) / setup.platform.communication_range_m;
     if constexpr (requires { params.link_redundancy; }) params.link_redundancy = setup.link_redundancy;
     return params;
   }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "banyan/controller/core/fixed_point.hpp"
 #include "banyan/controller/core/robot_id.hpp"
 #include "banyan/controller/core/vec2.hpp"
 
@@ -46,6 +47,7 @@ struct FieldDigest {
   template <class T> constexpr void robot(const char*, const char*, const T& v) noexcept { digest.add(v); }
   template <class T> constexpr void count(const char*, const char*, const T& v) noexcept { digest.add(v); }
   template <class T> constexpr void scaled(const char*, const char*, const T& v, float) noexcept { digest.add(v); }
+  constexpr void coordinate(const char*, const char*, Coordinate v) noexcept { digest.add(v.bits); }
   constexpr void real(const char*, const char*, float v, float) noexcept { digest.add(v); }
 };
 

@@ -21,6 +21,13 @@ inline void write_in_edge_frame(Vec2 v, Vec2 addressee, float unit, std::int16_t
   y = to_fixed<std::int16_t>(v.y, unit);
 }
 
+// A place, in C.
+inline void write_in_edge_frame(Vec2 place, Vec2 addressee, Coordinate& x, Coordinate& y) noexcept {
+  place = to_edge_frame(place, addressee);
+  x = Coordinate::of(place.x);
+  y = Coordinate::of(place.y);
+}
+
 // Addressee: `v` as received, the sender at `sender` in its own frame. A rotation: a point needs the
 // sender's subtraction of the addressee's position first.
 [[nodiscard]] inline Vec2 from_edge_frame(Vec2 v, Vec2 sender) noexcept { return rotate(-unit(sender), v); }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What a robot senses between two steps and what a step answers. Everything is in the robot's own
-// body frame: x forward, y to the left.
+// What a robot senses between two steps, as its host hands it in, and what its step answers. Hosts measure in metres and
+// seconds; behind the gate (gate.hpp) and in Motion lengths are in C and speeds in v_max (platform.hpp). Everything is in
+// the robot's own body frame: x forward, y to the left.
 #pragma once
 
 #include <optional>
 #include <span>
 
+#include "banyan/controller/core/platform.hpp"
 #include "banyan/controller/core/robot_id.hpp"
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/controller/core/vec2.hpp"
@@ -26,7 +28,7 @@ struct Orders {
   // This robot has been sent to a target. It stays sent until this is false again. A robot may
   // resign, or serve another robot's target instead; the host need not know.
   bool sent = false;
-  // While it is sent: from the robot to that target, m. None: not sensed in this tick.
+  // While it is sent: from the robot to that target; m from a host, C behind the gate. None: not sensed in this tick.
   std::optional<Vec2> target;
   // A target that has been given up, named by the robot first sent there: the robot that serves it stops.
   // Announced once.
@@ -59,13 +61,24 @@ struct Senses {
   template <class Visit> constexpr void for_each_reading(Visit visit) { visit(charge); }
 };
 
-// What the motors are to do until the next step. A differential robot is never given `sideways_m_s`;
-// its two wheels never exceed Platform::wheel_limit_m_s.
+// What a step wants the motors to do until the next one. A differential robot is never given `sideways`; its two wheels
+// never exceed v_max.
+struct Motion {
+  float forward = 0.0F;   // v_max
+  float sideways = 0.0F;  // v_max
+  float turn = 0.0F;      // rad per drive, to the left
+};
+
+// The same for a host's motors.
 struct Velocity {
   float forward_m_s = 0.0F;
   float sideways_m_s = 0.0F;
   float turn_rad_s = 0.0F;
 };
+[[nodiscard]] constexpr Velocity velocity_of(const Motion& motion, const Platform& platform) noexcept {
+  const float v_max = platform.wheel_limit_m_s;
+  return {motion.forward * v_max, motion.sideways * v_max, motion.turn * (v_max / platform.communication_range_m)};
+}
 
 // The speeds of the two wheels that make that motion, m/s.
 struct WheelSpeeds {
@@ -79,10 +92,10 @@ struct WheelSpeeds {
 
 // A point or vector remembered over ticks, carried along by own odometry every tick.
 struct Carry {
-  Vec2 shift;     // m
-  Vec2 rotation;  // (cos, sin) of the turn
-  explicit Carry(const Odometry& odometry) noexcept
-      : shift{odometry.forward_m, odometry.sideways_m}, rotation(unit_vector(odometry.turn_rad)) {}
+  Vec2 shift;               // C
+  Vec2 rotation{1.0F, 0.0F};  // (cos, sin) of the turn
+  Carry() = default;
+  Carry(Vec2 moved, float turn_rad) noexcept : shift(moved), rotation(unit_vector(turn_rad)) {}
   [[nodiscard]] Vec2 point(Vec2 p) const noexcept { return rotate_back(rotation, p - shift); }
   [[nodiscard]] Vec2 vector(Vec2 v) const noexcept { return rotate_back(rotation, v); }
 };

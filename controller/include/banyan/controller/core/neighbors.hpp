@@ -34,8 +34,8 @@ class Neighbors {
  public:
   // One tick: begin(), file() or else enter() for each packet in any order (of several of one sender the last
   // counts), then remove_next() until there is nothing to remove.
-  // `way_m`: the longest that a neighbour drives in a tick, if measurements are to be filtered; else 0.
-  void begin(int elapsed_ticks, float way_m) noexcept;
+  // `way`: the longest that a neighbour drives in a tick, if measurements are to be filtered; else 0.
+  void begin(int elapsed_ticks, float way) noexcept;
   // The index of the sender; -1 if it is new. `before`: where it was a tick ago, in the frame of then; left alone
   // if it was not heard then, or has been filed in this tick already.
   int file(RobotId id, Vec2 position, Vec2& before, const Carry& carry) noexcept {
@@ -67,9 +67,9 @@ class Neighbors {
   [[nodiscard]] RobotId id(int k) const noexcept { return ids_[k]; }
   [[nodiscard]] Vec2 position(int k) const noexcept { return positions_[k]; }  // m, body frame
   // m; where ranges are noisy, one standard deviation more than the distance of position(k): it may be that far away.
-  [[nodiscard]] float range(int k) const noexcept { return ranges_m_[k]; }
+  [[nodiscard]] float range(int k) const noexcept { return ranges_[k]; }
   [[nodiscard]] const PositionFilter& filter() const noexcept { return filter_; }
-  [[nodiscard]] float spread_m() const noexcept { return filter_.spread_m(); }
+  [[nodiscard]] float spread() const noexcept { return filter_.spread(); }
   [[nodiscard]] int measurements(int k) const noexcept {
     return measurements_[k];
   }                                                                 // that its position is made of, up to 255
@@ -88,7 +88,7 @@ class Neighbors {
   int find_next(RobotId id) noexcept;
   void put(int k, Vec2 position) noexcept {
     positions_[k] = position;
-    ranges_m_[k] = norm(position) + filter_.spread_m();
+    ranges_[k] = norm(position) + filter_.spread();
     ages_[k] = 0;
   }
   [[nodiscard, gnu::noinline]] Vec2 filtered(int k, Vec2 predicted, Vec2 measured) noexcept;
@@ -108,7 +108,7 @@ class Neighbors {
   Rows all_;                  // [0, size)
   PositionFilter filter_;
   Array<Vec2> positions_{};  // first, with the ranges: a chip loads floats from at most 1,020 bytes away
-  Array<float> ranges_m_{};
+  Array<float> ranges_{};
   Array<RobotId> ids_{};
   Array<std::uint8_t> by_id_{};  // indices, ascending by id
   Array<std::uint8_t> measurements_{};

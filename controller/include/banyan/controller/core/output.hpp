@@ -7,7 +7,7 @@ namespace banyan {
 
 template <class Message> struct Output {
   Message message;  // to broadcast
-  Velocity velocity;
+  Motion motion;
 };
 
 }  // namespace banyan

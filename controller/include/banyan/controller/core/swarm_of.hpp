@@ -2,11 +2,12 @@
 // A Swarm of any algorithm: of its Params, State, Message and step. For hosts; firmware calls the step.
 //
 // An algorithm A is
-//   A::Params, A::State, A::Message   values; a message has `blocks` and visit_fields() (wire.hpp)
+//   A::Params, A::State, A::Message   values; Params are a Machine (platform.hpp), a message has `blocks` and
+//                                     visit_fields() (wire.hpp)
 //   A::Heard                          {const Message-or-a-base* message; Vec2 position; float age_s}
 //   A::initial(id, worker, root)      a State
 //   A::step(params, state, inputs)    an Output<Message>; of what hosts hand in, which may be anything, Inputs<Heard>
-//                                     has what passed the gate (gate.hpp)
+//                                     has what passed the gate (gate.hpp), lengths in C
 //   A::report(state), A::add_to(digest, state)
 #pragma once
 
@@ -61,6 +62,7 @@ struct FieldNames {
   void robot(const char* name, const char* meaning, RobotId) { add(name, meaning); }
   void count(const char* name, const char* meaning, RobotCount) { add(name, meaning); }
   template <class T> void scaled(const char* name, const char* meaning, const T&, float) { add(name, meaning, 3); }
+  void coordinate(const char* name, const char* meaning, Coordinate) { add(name, meaning, 3); }
   void real(const char* name, const char* meaning, float, float) { add(name, meaning, 3); }
 };
 struct Numbers {
@@ -78,6 +80,7 @@ struct Numbers {
   template <class T> void scaled(const char*, const char*, const T& v, float unit) noexcept {
     *at++ = static_cast<double>(v) / static_cast<double>(unit);
   }
+  void coordinate(const char*, const char*, Coordinate v) noexcept { *at++ = static_cast<double>(v.value()); }
   void real(const char*, const char*, float v, float) noexcept { *at++ = static_cast<double>(v); }
 };
 
@@ -92,7 +95,8 @@ template <class A> class SwarmOf final : public Swarm {
 
   // `history`: packets are heard at most this many ticks after they were sent.
   template <class Members>
-  SwarmOf(const Params& params, const Members& members, std::size_t history) : params_(params), slots_(history + 1) {
+  SwarmOf(const Params& params, const Platform& platform, const Members& members, std::size_t history)
+      : params_(params), platform_(platform), slots_(history + 1) {
     states_.reserve(members.size());
     for (const auto& member : members) {
       states_.push_back(A::initial(member.id, member.worker, member.root));
@@ -121,9 +125,9 @@ template <class A> class SwarmOf final : public Swarm {
         continue;
       }
       const std::span<Heard> packets = std::span<Heard>(heard[k % 2]).first(sensed[k].packets.size());
-      const auto output = A::step(params_, states_[i], Inputs<Heard>(packets, sensed[k].senses, params_));
+      const auto output = A::step(params_, states_[i], Inputs<Heard>(packets, sensed[k].senses, platform_));
       now[i] = output.message;
-      commands[k] = output.velocity;
+      commands[k] = velocity_of(output.motion, platform_);
       reports[k] = A::report(states_[i]);
     }
   }
@@ -202,6 +206,7 @@ template <class A> class SwarmOf final : public Swarm {
   }
 
   Params params_;
+  Platform platform_;
   std::vector<State, PageAllocator<State>> states_;
   std::vector<std::vector<Message, PageAllocator<Message>>> slots_;  // a ring: what each robot sent, tick by tick
   std::size_t slot_ = 0;

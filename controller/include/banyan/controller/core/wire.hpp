@@ -8,6 +8,7 @@
 //   visitor.robot(name, meaning, field)               an id
 //   visitor.count(name, meaning, field)               a number of robots
 //   visitor.scaled(name, meaning, field, unit)        a whole number of 1 / unit
+//   visitor.coordinate(name, meaning, field)          a coordinate of a place, C (fixed_point.hpp)
 //   visitor.real(name, meaning, field, limit)         a float of at most that magnitude
 // and names its blocks in `blocks`. On the wire: a header byte, the choices and flags packed into bits,
 // then the rest, little-endian, in the order of the list, without padding. Ids and numbers of robots take two bytes as
@@ -23,6 +24,7 @@
 #include <span>
 #include <type_traits>
 
+#include "banyan/controller/core/fixed_point.hpp"
 #include "banyan/controller/core/inputs.hpp"
 
 namespace banyan {
@@ -69,6 +71,7 @@ class BitWriter {
   [[gnu::always_inline]] void robot(const char*, const char*, RobotId) noexcept {}
   [[gnu::always_inline]] void count(const char*, const char*, RobotCount) noexcept {}
   template <class T> [[gnu::always_inline]] void scaled(const char*, const char*, const T&, float) noexcept {}
+  [[gnu::always_inline]] void coordinate(const char*, const char*, Coordinate) noexcept {}
   [[gnu::always_inline]] void real(const char*, const char*, float, float) noexcept {}
   [[nodiscard]] std::uint8_t* end() const noexcept { return out_ + (used_ > 0 ? 1 : 0); }
 
@@ -101,6 +104,7 @@ class BitReader {
   [[gnu::always_inline]] void robot(const char*, const char*, RobotId&) noexcept {}
   [[gnu::always_inline]] void count(const char*, const char*, RobotCount&) noexcept {}
   template <class T> [[gnu::always_inline]] void scaled(const char*, const char*, T&, float) noexcept {}
+  [[gnu::always_inline]] void coordinate(const char*, const char*, Coordinate&) noexcept {}
   [[gnu::always_inline]] void real(const char*, const char*, float&, float) noexcept {}
   // What is left of the last byte must be zero.
   [[nodiscard]] bool ok() const noexcept { return ok_ && (used_ == 0 || (*in_ >> used_) == 0); }
@@ -136,6 +140,7 @@ template <std::size_t id_bytes> class ByteWriter {
   template <class T> [[gnu::always_inline]] void scaled(const char*, const char*, const T& v, float) noexcept {
     put(v);
   }
+  [[gnu::always_inline]] void coordinate(const char*, const char*, Coordinate v) noexcept { put(v.bits); }
   [[gnu::always_inline]] void real(const char*, const char*, float v, float) noexcept {
     put(std::bit_cast<std::uint32_t>(v));
   }
@@ -167,6 +172,9 @@ template <std::size_t id_bytes> class ByteReader {
   template <class T> [[gnu::always_inline]] void scaled(const char*, const char*, T& v, float) noexcept {
     v = take<T>();
   }
+  [[gnu::always_inline]] void coordinate(const char*, const char*, Coordinate& v) noexcept {
+    v.bits = take<std::int16_t>();
+  }
   [[gnu::always_inline]] void real(const char*, const char*, float& v, float limit) noexcept {
     v = std::bit_cast<float>(take<std::uint32_t>());
     ok_ = ok_ && std::fabs(v) <= limit;  // false for NaN too
@@ -195,6 +203,7 @@ class Counter {
   constexpr void robot(const char*, const char*, RobotId) noexcept { bytes_ += id_bytes_; }
   constexpr void count(const char*, const char*, RobotCount) noexcept { bytes_ += id_bytes_; }
   template <class T> constexpr void scaled(const char*, const char*, const T&, float) noexcept { bytes_ += sizeof(T); }
+  constexpr void coordinate(const char*, const char*, Coordinate) noexcept { bytes_ += sizeof(Coordinate); }
   constexpr void real(const char*, const char*, float, float) noexcept { bytes_ += sizeof(float); }
   [[nodiscard]] constexpr std::size_t bytes() const noexcept {
     return 1 + static_cast<std::size_t>(bits_ + 7) / 8 + bytes_;
@@ -218,6 +227,7 @@ class WidthSeeker {
   }
   constexpr void count(const char*, const char*, std::uint32_t v) noexcept { found_ = found_ || v > UINT16_MAX; }
   template <class T> constexpr void scaled(const char*, const char*, const T&, float) noexcept {}
+  constexpr void coordinate(const char*, const char*, Coordinate) noexcept {}
   constexpr void real(const char*, const char*, float, float) noexcept {}
   [[nodiscard]] constexpr bool found() const noexcept { return found_; }
 

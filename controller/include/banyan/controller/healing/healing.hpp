@@ -145,9 +145,9 @@ void inherit_task(HealingRobot& robot, RobotId serves) noexcept;
 
 // ---- progress.cpp: a worker that gets no nearer ----
 
-// At the end of a step, with the velocity that it is to have, m/s. A worker that has driven in vain for long (its
+// At the end of a step, with the velocity that it is to have, v_max. A worker that has driven in vain for long (its
 // motors or wheels do not do what they are told, bodies or walls are in its way) resigns: its target goes to the next,
-// as if it had died, and for `second_try_s` longer not to itself.
+// as if it had died, and for four drives longer not to itself.
 void watch_progress(HealingRobot& robot, bool retreats, Vec2 v) noexcept;
 
 // ---- dangling_branch.cpp: the end of a torn branch ----
@@ -171,7 +171,7 @@ void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept;
 [[nodiscard]] Vec2 retreat_motion(const HealingRobot& robot, bool regroups, bool workers_relay) noexcept;
 
 // How far this robot has to drive for a reason of its own, m: to where the last robot below it was.
-[[nodiscard]] inline float own_want_m(const HealingRobot& robot) noexcept {
+[[nodiscard]] inline float own_want(const HealingRobot& robot) noexcept {
   return robot.carries_on ? norm(robot.self.lost_child) : 0.0F;
 }
 

@@ -19,8 +19,8 @@ struct HealingNews {
   RobotCount root_size = 0;    // robots that this root counted last; 0: none yet
   Serial heartbeat = 0;        // gossip: the root's count of ticks
   RobotId told = nobody;       // addressee of the vectors that follow
-  std::int16_t root_x_cm = 0;  // root - addressee, edge frame to `told`
-  std::int16_t root_y_cm = 0;
+  Coordinate root_x;          // root - addressee, edge frame to `told`
+  Coordinate root_y;
   RobotId task_serves = nobody;  // a target, by its first worker; nobody: I know none
   RobotId task_holder = nobody;  // gossip: the robot that serves it; nobody: it has been given up
   Serial task_beat = 0;          // gossip: the holder's count of ticks
@@ -28,8 +28,8 @@ struct HealingNews {
   bool task_silent = false;  // gossip: the robots that heard the holder last no longer hear it; without holder: put off
   bool task_below = false;   // the holder is below me in the tree, or I am the holder
   bool forgets = false;      // gossip: some robot has had no room for a target
-  std::int16_t task_x_cm = 0;  // target - addressee, edge frame to `told`
-  std::int16_t task_y_cm = 0;
+  Coordinate task_x;          // target - addressee, edge frame to `told`
+  Coordinate task_y;
 
   friend bool operator==(const HealingNews&, const HealingNews&) = default;
 };
@@ -42,10 +42,10 @@ struct HealingMessage : TreeMessage, HealingStanding, HealingNews {
 // Gossip: the longest burst of loss that the sender knows, ticks (loss.cpp). It travels in a field that only an offer
 // of the token needs, since a message has no byte left; robots that do not heal leave it 0.
 [[nodiscard]] constexpr int burst_of(const TreeMessage& m) noexcept {
-  return m.new_root == nobody ? m.centroid_x_cm : 0;
+  return m.new_root == nobody ? m.centroid_x.bits : 0;
 }
 constexpr void set_burst(TreeMessage& m, std::uint8_t ticks) noexcept {
-  if (m.new_root == nobody) m.centroid_x_cm = ticks;
+  if (m.new_root == nobody) m.centroid_x.bits = ticks;
 }
 
 // The healing block, field by field (wire.hpp).
@@ -61,13 +61,13 @@ template <class Visitor, class M> constexpr void visit_healing_block(Visitor& vi
   visit.number("heartbeat", "the root's count of ticks, modulo 65536", m.heartbeat);
   visit.robot("serves", "of a worker: its target, by the worker first sent there, -1: none", m.serves);
   visit.robot("told", "addressee of root and task, -1: nobody", m.told);
-  visit.number("root_x_cm", "where the root is, relative to `told`, along the edge from the sender to it", m.root_x_cm);
-  visit.number("root_y_cm", "the same, to the left of that edge", m.root_y_cm);
+  visit.coordinate("root_x", "where the root is, relative to `told`, along the edge from the sender to it", m.root_x);
+  visit.coordinate("root_y", "the same, to the left of that edge", m.root_y);
   visit.robot("task", "a target, by the worker first sent there, -1: none", m.task_serves);
   visit.robot("task_holder", "the robot that serves it, -1: given up", m.task_holder);
   visit.number("task_beat", "the holder's count of ticks, modulo 65536", m.task_beat);
-  visit.number("task_x_cm", "where it is, relative to `told`, along the edge from the sender to it", m.task_x_cm);
-  visit.number("task_y_cm", "the same, to the left of that edge", m.task_y_cm);
+  visit.coordinate("task_x", "where it is, relative to `told`, along the edge from the sender to it", m.task_x);
+  visit.coordinate("task_y", "the same, to the left of that edge", m.task_y);
 }
 
 template <class Visitor> constexpr void visit_fields(Visitor& visit, HealingMessage& m) noexcept {

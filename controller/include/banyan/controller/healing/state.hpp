@@ -43,7 +43,7 @@ inline constexpr std::uint16_t first_gap = 200;  // sixteenths of ticks: taken f
 
 // The progress of a worker (progress.cpp).
 struct Progress {
-  std::uint16_t least_cm = UINT16_MAX;  // the nearest that it has come to its target, since something was in the way
+  std::uint16_t least = UINT16_MAX;  // the nearest that it has come to its target, in C / 256, since something was in the way
   std::uint16_t vain_ticks = 0;         // eighteenths of ticks at full speed towards it since, in vain
 };
 
@@ -104,15 +104,15 @@ template <class Visitor, class State> constexpr void visit_healing_state(Visitor
   visit(s.heartbeat), visit(s.silence_ticks), visit(s.heart.sequence), visit(s.heart.id), visit(s.root_at),
       visit(bool{s.root_known}), visit(s.turn), visit(s.hold);
   visit(s.dangling_ticks), visit(s.lost_child), visit(bool{s.forgets}), visit(s.task_count), visit(s.news_gap);
-  visit(s.progress.least_cm), visit(s.progress.vain_ticks);
+  visit(s.progress.least), visit(s.progress.vain_ticks);
   for (int k = 0; k < s.task_count; ++k) {
     auto& task = s.tasks[static_cast<std::size_t>(k)];
     visit(task.serves), visit(task.holder), visit(task.beat), visit(task.age_ticks), visit(task.target),
         visit(task.via), visit(bool{task.silent}), visit(bool{task.reached}), visit(bool{task.gave_up}),
         visit(task.urgent_ticks), visit(bool{task.unlocated}), visit(std::uint8_t{task.times_put_off});
   }
-  visit(s.detour.side), visit(s.detour.contact), visit(s.detour.origin), visit(s.detour.goal), visit(s.detour.leave_m),
-      visit(s.detour.span_m), visit(s.detour.last_side), visit(s.detour.again);
+  visit(s.detour.side), visit(s.detour.contact), visit(s.detour.origin), visit(s.detour.goal), visit(s.detour.leave),
+      visit(s.detour.span), visit(s.detour.last_side), visit(s.detour.again);
   visit(s.neighbors_at_start), visit(s.usual_silence), visit(s.missed_in_the_clear), visit(s.burst_ticks),
       visit(s.watched), visit(s.watched_ticks);
   visit(s.named), visit(bool{s.calls}), visit(s.caller), visit(s.called_ticks);

@@ -28,7 +28,7 @@ inline constexpr int longest_silence_ticks = 100;  // for so long they are remem
 
 // How much farther away than where it was heard neighbour k may be, if it has been silent for longer than I because its
 // packets get lost: it knows no better where I am, and may have driven.
-[[nodiscard]] float strayed_m(const HealingRobot& robot, int k) noexcept;
+[[nodiscard]] float strayed_way(const HealingRobot& robot, int k) noexcept;
 
 // Where packets get lost many in a row, some neighbours have not been heard yet in the first seconds: nobody leaves
 // them.

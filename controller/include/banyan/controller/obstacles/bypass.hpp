@@ -17,16 +17,11 @@ struct Detour {
   Vec2 contact;               // where the obstacle was touched last
   Vec2 origin;                // where the detour began
   Vec2 goal;                  // as it was then
-  float leave_m = 0.0F;       // the detour is over when the goal is nearer than this
-  float span_m = 0.0F;        // this far from the origin the other side is tried
+  float leave = 0.0F;       // the detour is over when the goal is nearer than this
+  float span = 0.0F;        // this far from the origin the other side is tried
 };
 
-// A body's radius is not among the parameters; the distance between the wheels is about 1.5 of it.
-inline constexpr float radius_of_wheels = 0.67F;
-[[nodiscard]] inline float body_m(const TreeRobot& robot) noexcept {
-  return radius_of_wheels * robot.params.wheel_distance_m;
-}
-inline constexpr float near_m = 0.19F;  // between body and obstacle, when it begins to matter
+inline constexpr float obstacle_near = 0.095F;  // C: between body and obstacle, when it begins to matter
 
 void carry_detour(Detour& detour, const Carry& carry) noexcept;
 

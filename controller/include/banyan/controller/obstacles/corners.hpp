@@ -11,8 +11,8 @@ struct Guard;  // motion.hpp
 
 // What a robot broadcasts of this, and keeps of each neighbour.
 struct CornerStanding {
-  std::int16_t hinge_x_cm = 0;  // the corner nearest to the edge to my parent - parent, edge frame; 0, 0: none known
-  std::int16_t hinge_y_cm = 0;
+  Coordinate hinge_x;  // the corner nearest to the edge to my parent - parent, edge frame; 0, 0: none known
+  Coordinate hinge_y;
   bool pinned = false;  // a corner is about to cut the edge to my parent, and I still have to travel
 
   friend bool operator==(const CornerStanding&, const CornerStanding&) = default;
@@ -21,10 +21,10 @@ struct CornerStanding {
 // The obstacles block, field by field (wire.hpp).
 template <class Visitor, class M> constexpr void visit_corner_block(Visitor& visit, M& m) noexcept {
   visit.flag("pinned", "1: a corner is about to cut the edge to the parent", m.pinned);
-  visit.number("hinge_x_cm",
+  visit.coordinate("hinge_x",
                "known obstacle point nearest to the edge to the parent, relative to the parent, along that edge",
-               m.hinge_x_cm);
-  visit.number("hinge_y_cm", "the same, to the left of that edge; 0, 0: none", m.hinge_y_cm);
+               m.hinge_x);
+  visit.coordinate("hinge_y", "the same, to the left of that edge; 0, 0: none", m.hinge_y);
 }
 
 // Points of obstacles that were sensed a while ago, in the own frame, m.
@@ -69,10 +69,10 @@ void keep_sight(const TreeRobot& robot, const Corners& corners, Guard& guard) no
 [[nodiscard]] Vec2 clear_sight(const TreeRobot& robot, const Corners& corners) noexcept;
 
 // An obstacle is about to cut the edge to the parent, and this robot has to travel, or is towed by a child farther
-// away than `towing_start_m`: the parent has to come up to the corner.
-[[nodiscard]] bool is_pinned(const TreeRobot& robot, const Corners& corners, float towing_start_m) noexcept;
+// away than `towing_start`: the parent has to come up to the corner.
+[[nodiscard]] bool is_pinned(const TreeRobot& robot, const Corners& corners, float towing_start) noexcept;
 
-// No obstacle known to me is nearer than `clearance_m` to the inside of segment a-b (own frame, m).
-[[nodiscard]] bool is_free(const TreeRobot& robot, const Corners& corners, Vec2 a, Vec2 b, float clearance_m) noexcept;
+// No obstacle known to me is nearer than `clearance` to the inside of segment a-b (own frame, m).
+[[nodiscard]] bool is_free(const TreeRobot& robot, const Corners& corners, Vec2 a, Vec2 b, float clearance) noexcept;
 
 }  // namespace banyan

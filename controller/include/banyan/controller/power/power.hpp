@@ -29,7 +29,7 @@ struct PowerRobot {
 void hand_over_target(PowerRobot& me) noexcept;
 
 // Once parent and children are known: my charge, the way to a charging place, whether I have to leave;
-void watch_charge(PowerRobot& me, const Senses& senses) noexcept;
+void watch_charge(PowerRobot& me, const std::optional<Charge>& charge, const Orders& orders) noexcept;
 
 // then whom I relieve, and who is to serve my target.
 void watch_relief(PowerRobot& me) noexcept;
@@ -78,7 +78,7 @@ void tend_battery(PowerRobot& me) noexcept;
 // While robots change places, spares do not drive into their lines of sight, nor does the robot that takes the place;
 // and it does not go where the one that leaves would hide its tree neighbours from it. Returns how fast a spare moves
 // that nobody waits for, as a share of its speed: it only makes room for others.
-[[nodiscard]] float give_way(const PowerRobot& me, float clearance_m, Guard& guard) noexcept;
+[[nodiscard]] float give_way(const PowerRobot& me, float clearance, Guard& guard) noexcept;
 
 // Near enough to a charging place: it stays there.
 [[nodiscard]] bool is_at_place(const PowerRobot& me) noexcept;

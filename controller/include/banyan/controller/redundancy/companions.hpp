@@ -15,7 +15,7 @@ namespace banyan {
 
 // Otherwise, with k = 1 or companion_distance 0, none of these rules does anything.
 [[nodiscard]] inline bool has_companions(const ConvoyParams& params) noexcept {
-  return params.link_redundancy > 1 && params.companion_distance_m > 0.0F;
+  return params.link_redundancy > 1 && params.companion_distance > 0.0F;
 }
 
 // Workers drive a little slower than they could, so that companions keep up with the chains.
@@ -51,7 +51,7 @@ void keep_company(ConvoyRobot& robot) noexcept;
 [[nodiscard]] bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept;
 
 // How near a companion comes to the edges of others, m.
-[[nodiscard]] float companion_way_m(const ConvoyRobot& robot, int of) noexcept;
+[[nodiscard]] float companion_width(const ConvoyRobot& robot, int of) noexcept;
 
 // How a companion moves, in units of speed_gain: to the place beside its robot from which it hears that robot's tree
 // neighbours best and is in nobody's line of sight. The robot must be in the table.

@@ -15,22 +15,22 @@ namespace banyan {
 [[nodiscard]] bool may_fold(const ConvoyRobot& robot) noexcept;
 
 // A branch begins to fold when its workers still have so far to go.
-inline constexpr float folds_from_m = 0.6F;
+inline constexpr float folds_from = 0.3F;
 
 // My branch folds. Not while an edge in need calls: its tree comes first.
 [[nodiscard]] bool folds(const ConvoyRobot& robot) noexcept;
 
 // The branch of a neighbour that says `m` does not fold yet.
 [[nodiscard]] inline bool is_under_way(const TreeStanding& m) noexcept {
-  constexpr int from_cm = static_cast<int>(100.0F * folds_from_m);
-  return m.want_cm >= from_cm;
+  constexpr auto from = static_cast<int>(per_range * folds_from);
+  return m.want >= from;
 }
 
 // The longest edge of a branch that has folded, m.
-[[nodiscard]] float folded_edge_m(const ConvoyParams& params) noexcept;
+[[nodiscard]] float folded_edge(const ConvoyParams& params) noexcept;
 
 // The longest link that a branch that has folded relies on, m.
-[[nodiscard]] float folded_reach_m(const ConvoyParams& params) noexcept;
+[[nodiscard]] float folded_reach(const ConvoyParams& params) noexcept;
 
 // My edge to my parent (there must be one) is too long or hidden. A worker's does not count before it has arrived: its
 // companion would come between it and its parent.
@@ -49,7 +49,7 @@ inline constexpr float folds_from_m = 0.6F;
 [[nodiscard]] Vec2 folding_motion(const ConvoyRobot& robot) noexcept;
 
 // Out of the lines between robots and their grandparents, in units of speed_gain: away from the parent between them,
-// since on that side are its edges. From within `width_m` of the line.
-[[nodiscard]] Vec2 clear_folds(const ConvoyRobot& robot, float width_m) noexcept;
+// since on that side are its edges. From within `width` of the line.
+[[nodiscard]] Vec2 clear_folds(const ConvoyRobot& robot, float width) noexcept;
 
 }  // namespace banyan

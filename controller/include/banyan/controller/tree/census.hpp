@@ -11,9 +11,9 @@ namespace banyan {
 
 // Sums over the children into subtree, subtree_workers, count, q, pull, want; at the root q is the
 // centroid. While trees are switched, children that know only the old tree are counted by that.
-// `rest_distance_m`: a worker this close to its target has no distance left; `own_want_m`: how far this robot
+// `rest_distance`: a worker this close to its target has no distance left; `own_want`: how far this robot
 // has to travel for a reason of its own.
-void take_census(TreeRobot& robot, float rest_distance_m, float own_want_m = 0.0F) noexcept;
+void take_census(TreeRobot& robot, float rest_distance, float own_want = 0.0F) noexcept;
 
 // Alg. 2 as printed, with the sum over children instead of "neighbors" (docs/algorithms.md, row 5):
 // `child_count` children whose counts add up to `child_counts`, own depth (root: 1).

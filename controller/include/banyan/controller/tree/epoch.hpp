@@ -25,7 +25,7 @@ void follow_phase(TreeRobot& robot, EpochPhase newest) noexcept;
 // epoch may begin once R is over.
 // `patience_ticks`: how long it waits in START TREE and SELECT PARENT.
 void advance(TreeRobot& robot, bool tree_complete, bool may_reconstruct, int patience_ticks) noexcept;
-// barrier_timeout_s, however deep the tree.
+// barrier_rounds, however deep the tree.
 void advance(TreeRobot& robot, bool tree_complete) noexcept;
 
 // Enters (epoch, phase): a new epoch makes the parent the old parent and forgets labels and grants;

@@ -11,13 +11,13 @@ namespace banyan {
 
 struct LabelRule {
   bool waits_for_anybody = true;  // a robot waits for labels of nearer neighbours, even if there is no such neighbour
-  float reach_m = std::numeric_limits<float>::max();  // from robots farther away it takes none
+  float reach = std::numeric_limits<float>::max();  // from robots farther away it takes none
 };
 void update_label(TreeRobot& robot, const LabelRule& rule = {}) noexcept;
 
-// Length of an edge in the label's unit; at least 1, so that a label grows along every edge.
-[[nodiscard]] std::uint16_t edge_cm(float range_m) noexcept;
+// Length of an edge in the label's unit, 1 / per_range of C; at least 1, so that a label grows along every edge.
+[[nodiscard]] std::uint16_t edge_label(float range) noexcept;
 // label + edge, saturating below unknown_label.
-[[nodiscard]] std::uint16_t label_below(std::uint16_t label_cm, float range_m) noexcept;
+[[nodiscard]] std::uint16_t label_below(std::uint16_t label, float range) noexcept;
 
 }  // namespace banyan

@@ -48,8 +48,8 @@ struct TreeTies {
 
 // What a robot keeps of each neighbour until it hears from it again: where it stands in the protocol.
 struct TreeStanding : TreeTies {
-  float q_x_m = 0.0F;  // edge frame to `up`: Alg. 1's contribution
-  float q_y_m = 0.0F;
+  float q_x = 0.0F;  // edge frame to `up`: Alg. 1's contribution
+  float q_y = 0.0F;
   Phase phase = Phase::init;
   Need need = Need::no_need;
   bool flood_done = false;                // START echo: my flood subtree is complete (protocol 4)
@@ -57,7 +57,7 @@ struct TreeStanding : TreeTies {
   bool parent_silent = false;             // my parent has not been heard for longer than I
   std::uint8_t call_hops = nobody_calls;  // hops to an edge whose need no spare has answered
   Serial epoch = 0;
-  std::uint16_t label_cm = unknown_label;  // distance to the root along hops (label.hpp, keep_up)
+  std::uint16_t label = unknown_label;  // distance to the root along hops (label.hpp, keep_up)
   Serial seqno = 0;                        // the root's count as it came down the tree: (seqno, label) orders the tree
   std::uint16_t depth = invalid_depth;     // root 1; 0: not connected to the root by tree edges
   RobotId flood_parent = nobody;
@@ -68,7 +68,7 @@ struct TreeStanding : TreeTies {
   // Alg. 2's c_i, beside the sums above; nothing depends on it. So a robot that heals says here whom it hears
   // (healing/mutual.cpp); a field more would be too much for one message, and for the firmware.
   RobotCount count = 0;
-  std::uint16_t want_cm = 0;  // largest remaining worker distance below me
+  std::uint16_t want = 0;  // largest remaining worker distance below me
   std::int16_t pull_x = 0;    // target pull, edge frame to `up`, 1 = pull_unit
   std::int16_t pull_y = 0;
   RobotId request = nobody;         // the owner whose edge I want to join
@@ -81,8 +81,8 @@ struct TreeStanding : TreeTies {
 struct TreeNews {
   RootToken root;                  // gossip: the newest root token I know
   RobotId new_root = nobody;       // offer of the token root.sequence + 1
-  std::int16_t centroid_x_cm = 0;  // centroid - addressee, edge frame to `new_root`; with no offer: burst_of()
-  std::int16_t centroid_y_cm = 0;
+  Coordinate centroid_x;  // centroid - addressee, edge frame to `new_root`; with no offer: burst_of()
+  Coordinate centroid_y;
 
   friend bool operator==(const TreeNews&, const TreeNews&) = default;
 };
@@ -96,7 +96,7 @@ struct TreeMessage : TreeStanding, TreeNews {
 inline constexpr float pull_unit = 16384.0F;  // fixed point of pull_x, pull_y: +-2
 // Largest |component| of q. A sender keeps within it and decode() rejects what exceeds it, because one
 // robot's wrong values could overflow the sums of all robots above it.
-inline constexpr float q_limit_m = 1.0e9F;
+inline constexpr float q_limit = 1.0e9F;
 
 // The tree block, field by field (wire.hpp). `heals`: `count` is what a healing algorithm says in its place.
 template <class Visitor, class M> constexpr void visit_tree_block(Visitor& visit, M& m, bool heals = false) noexcept {
@@ -111,7 +111,7 @@ template <class Visitor, class M> constexpr void visit_tree_block(Visitor& visit
   visit.number("epoch", "counts the trees", m.epoch);
   visit.number("root_sequence", "newest root token known: sequence", m.root.sequence);
   visit.robot("root_id", "newest root token known: holder, -1: nobody", m.root.id);
-  visit.known("label_cm", "distance to the root along hops when the epoch began, -1: unknown", m.label_cm);
+  visit.known("label", "distance to the root along hops when the epoch began, in C / 256, -1: unknown", m.label);
   visit.number("seqno", "the root's count as it came down the tree", m.seqno);
   visit.number("depth", "in the tree, root 1; 0: no path of tree edges to the root", m.depth);
   visit.known("tree_hops", "hops over free spares to the rooted tree, 0: in it, -1: no way known", m.tree_hops);
@@ -127,9 +127,9 @@ template <class Visitor, class M> constexpr void visit_tree_block(Visitor& visit
     visit.robot("hears", "a neighbour that the sender hears, by ascending ids; its own id: come nearer, -1: none",
                 m.count);
   else visit.count("count", "c of Alg. 2; no rule uses it", m.count);
-  visit.number("want_cm", "largest remaining way of a worker below, 0: all have arrived", m.want_cm);
-  visit.real("q_x_m", "Alg. 1's contribution, along the edge from the sender to its parent", m.q_x_m, q_limit_m);
-  visit.real("q_y_m", "the same, to the left of that edge", m.q_y_m, q_limit_m);
+  visit.scaled("want", "largest remaining way of a worker below, 0: all have arrived", m.want, per_range);
+  visit.real("q_x", "Alg. 1's contribution, along the edge from the sender to its parent", m.q_x, q_limit);
+  visit.real("q_y", "the same, to the left of that edge", m.q_y, q_limit);
   visit.scaled("pull_x", "attraction to the targets below, along the edge from the sender to its parent, -2 to 2",
                m.pull_x, pull_unit);
   visit.scaled("pull_y", "the same, to the left of that edge", m.pull_y, pull_unit);
@@ -138,11 +138,11 @@ template <class Visitor, class M> constexpr void visit_tree_block(Visitor& visit
   visit.robot("inserted_child", "the robot above which the sender has just been inserted, -1: nobody",
               m.inserted_child);
   visit.robot("new_root", "the robot to which the root token is offered, -1: nobody", m.new_root);
-  visit.number("centroid_x_cm",
+  visit.coordinate("centroid_x",
                "with the offer: centroid relative to that robot, along the edge to it; with none: the longest burst of "
                "loss known, ticks",
-               m.centroid_x_cm);
-  visit.number("centroid_y_cm", "the same, to the left of that edge", m.centroid_y_cm);
+               m.centroid_x);
+  visit.coordinate("centroid_y", "the same, to the left of that edge", m.centroid_y);
 }
 
 template <class Visitor> constexpr void visit_fields(Visitor& visit, TreeMessage& m) noexcept {
@@ -166,7 +166,7 @@ constexpr bool is_untied(const TreeStanding& m) noexcept {
   return m.role != Role::root && up_of(m) == nobody && m.grant == nobody;
 }
 
-// One received packet. Its sender is in the receiver's body frame (x forward, y left; m), from range and
+// One received packet. Its sender is in the receiver's body frame (x forward, y left; C), from range and
 // bearing: where it was `age_s` ago, in the frame of then; 0: as of now. `message` lives as long as the step.
 // In a healing algorithm it is a HealingMessage, and so on: all robots of a swarm run the same algorithm.
 struct Heard {

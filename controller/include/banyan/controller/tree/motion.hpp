@@ -8,7 +8,7 @@
 namespace banyan {
 
 // A robot nearer than this is where I am: it has no direction, and powers of 1 / d would overflow.
-inline constexpr float same_spot_m = 1e-6F;
+inline constexpr float same_spot = 1e-6F;
 
 // Visits the index of every neighbour at the other end of an edge of mine, old or new, once: parents first.
 template <class Visit> void for_each_tree_neighbor(const TreeRobot& robot, Visit visit) noexcept {
@@ -26,15 +26,15 @@ template <class Visit> void for_each_tree_neighbor(const TreeRobot& robot, Visit
 // u^avoid: repulsion from robots nearer than A that are no tree neighbours; corrected: from obstacles, too.
 [[nodiscard]] Vec2 avoidance(const TreeRobot& robot) noexcept;
 
-// u_tree's magnitude, (epsilon/d)((delta/d)^2 - (delta/d)^4) with lengths in cm: positive towards
+// u_tree's magnitude, (epsilon/d)((delta/d)^2 - (delta/d)^4): positive towards
 // the neighbour. Not bounded as d goes to 0.
-[[nodiscard]] float interaction(float distance_m, const TreeParams& params) noexcept;
+[[nodiscard]] float interaction(float length, const TreeParams& params) noexcept;
 
 // Paper's f: what is left of target + avoidance for a robot whose parent is at `parent` (own frame).
 // literal: all up to S, nothing beyond; corrected: beyond S all but the part away from the parent.
 [[nodiscard]] Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params, const Reading& reading) noexcept;
 
-// The velocity (m/s, own frame) nearest to `u`, in units of speed_gain, within the guard and the wheels' limits.
+// The velocity (v_max, own frame) nearest to `u`, in units of speed_gain, within the guard and the wheels' limits.
 [[nodiscard]] Vec2 allowed(Vec2 u, const Guard& guard, const TreeParams& params) noexcept;
 
 }  // namespace banyan

@@ -10,7 +10,7 @@ namespace banyan {
 
 struct Reading {
   std::string_view name;
-  bool keeps_margin;         // a parent is chosen within delta - parent_margin_m; printed: within C
+  bool keeps_margin;         // a parent is chosen within delta - parent_margin; printed: within C
   bool keeps_links;          // a robot without a parent stays with those that tie it to the root; printed: no such rule
   bool slides_beyond_safe;   // beyond S only the motion away from the parent is dropped; printed: all but the springs
   bool asks_while_wanted;    // an edge asks for a spare only while a worker below still has to travel; printed: always

@@ -28,7 +28,7 @@ struct IndexList {
 // The larger things that a robot works with in a step. They lie beside it, since a chip reaches only its first 124
 // bytes with short loads.
 struct Workspace {
-  explicit Workspace(const Inputs<Heard>& inputs) noexcept : carry(inputs.senses().odometry) {}
+  explicit Workspace(const Inputs<Heard>& inputs) noexcept : carry(inputs.carry()) {}
   Carry carry;
   IndexList children;
   IndexList old_children;
@@ -80,10 +80,10 @@ struct TreeRobot {
         reading(reading_),
         self(self_),
         heard(inputs.heard()),
-        obstacles(inputs.senses().obstacles),
+        obstacles(inputs.obstacles()),
         carry(space.carry),
         elapsed_ticks(inputs.elapsed_ticks()),
-        forget_ticks(params_.ticks(params_.liveness_period_s)),
+        forget_ticks(whole(params_.liveness_rounds)),
         children(space.children),
         old_children(space.old_children) {
     self.tally.rejected += inputs.rejected();
@@ -134,25 +134,25 @@ struct TreeRobot {
   [[nodiscard]] bool is_root() const noexcept { return self.root.id == self.id; }
   // I, and longer where packets are lost.
   [[nodiscard]] int liveness_ticks() const noexcept {
-    return std::max(params.ticks(params.liveness_period_s), loss_ticks);
+    return std::max(whole(params.liveness_rounds), loss_ticks);
   }
   // How long a connector waits for a child; one that has just chosen it may not have been heard yet.
   // A silent one counts as alive for long where packets get lost many in a row.
   [[nodiscard]] int patience_ticks() const noexcept {
     constexpr int sooner_in_bursts = 6;  // loss_ticks is the longest row of losses, and most are far shorter
-    return std::max(params.ticks(params.connector_patience_s),
+    return std::max(whole(params.connector_rounds),
                     has_bursts() ? loss_ticks / sooner_in_bursts : loss_ticks);
   }
   // The longest edge a robot may choose (protocol 2, row 4).
-  [[nodiscard]] float parent_range_m() const noexcept {
-    return reading.keeps_margin ? params.ideal_distance_m - params.parent_margin_m : params.communication_range_m;
+  [[nodiscard]] float parent_range() const noexcept {
+    return reading.keeps_margin ? params.ideal_distance - params.parent_margin : 1.0F;
   }
-  // A point, relative to me, that the sender has written for me in its edge frame (cm). False if it was not
+  // A point, relative to me, that the sender has written for me in its edge frame. False if it was not
   // heard in the tick before: what it wrote refers to where both were then, and over a distance a bearing that
-  // is a tick old makes an error of decimetres.
-  [[nodiscard]] bool read_point(const Heard& h, std::int16_t x_cm, std::int16_t y_cm, Vec2& point) const noexcept {
+  // is a tick old makes an error of a tenth of C.
+  [[nodiscard]] bool read_point(const Heard& h, Coordinate x, Coordinate y, Vec2& point) const noexcept {
     if (h.before == Vec2{}) return false;
-    point = carry.point({}) + from_edge_frame({metres(x_cm), metres(y_cm)}, carry.vector(h.before));
+    point = carry.point({}) + from_edge_frame({x.value(), y.value()}, carry.vector(h.before));
     return true;
   }
   // Neighbour k is at the other end of an edge of mine, old or new.

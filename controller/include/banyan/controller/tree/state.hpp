@@ -26,7 +26,7 @@ struct TreeState {
   std::uint16_t done_ticks = 0;  // how long the root's barrier has held
 
   // Label: distance to the root and the echo (label.hpp)
-  std::uint16_t label_cm = unknown_label;
+  std::uint16_t label = unknown_label;
   std::uint16_t label_wait_ticks = 0;  // since the first labelled neighbour was heard
   RobotId flood_parent = nobody;
   bool flood_done = false;
@@ -51,10 +51,10 @@ struct TreeState {
   RobotCount subtree_workers = 0;
   RobotCount count = 0;             // Alg. 2
   Vec2 q;                           // m, own frame; at the root Alg. 1's centroid
-  float want_m = 0.0F;              // largest remaining worker distance below me
+  float want = 0.0F;              // largest remaining worker distance below me
   Vec2 pull;                        // target pull, own frame
-  float least_want_m = 0.0F;        // the least want_m since it last grew
-  std::uint16_t stalled_ticks = 0;  // since want_m last changed by 10 cm
+  float least_want = 0.0F;        // the least want since it last grew
+  std::uint16_t stalled_ticks = 0;  // since want last changed by a twentieth of C
 
   // Root selection (root_selection.hpp)
   Vec2 centroid;  // m, own frame
@@ -93,13 +93,13 @@ struct TreeState {
 template <class Visitor, class State> constexpr void visit_tree_state(Visitor& visit, State& s) noexcept {
   visit(s.id), visit(s.is_worker), visit(s.role), visit(s.target), visit(s.target_known);
   visit(s.epoch), visit(s.phase), visit(s.phase_ticks), visit(s.root.sequence), visit(s.root.id), visit(s.done_ticks);
-  visit(s.label_cm), visit(s.label_wait_ticks), visit(s.flood_parent), visit(s.flood_done), visit(s.flood_robots),
+  visit(s.label), visit(s.label_wait_ticks), visit(s.flood_parent), visit(s.flood_done), visit(s.flood_robots),
       visit(s.flood_workers);
   visit(s.parent), visit(s.old_parent), visit(s.committed), visit(s.search_ticks), visit(s.orphan_ticks),
       visit(s.childless_ticks);
   visit(s.seqno), visit(s.seqno_ticks), visit(s.pending_parent), visit(s.depth), visit(s.tree_hops);
-  visit(s.subtree), visit(s.subtree_workers), visit(s.count), visit(s.q), visit(s.want_m), visit(s.pull),
-      visit(s.least_want_m), visit(s.stalled_ticks);
+  visit(s.subtree), visit(s.subtree_workers), visit(s.count), visit(s.q), visit(s.want), visit(s.pull),
+      visit(s.least_want), visit(s.stalled_ticks);
   visit(s.centroid), visit(s.centroid_known), visit(s.new_root), visit(s.offer_ticks);
   visit(s.need), visit(s.unserved_ticks), visit(s.call_hops), visit(s.grant), visit(s.grant_ticks),
       visit(s.inserted_child), visit(s.inserted_ticks);
