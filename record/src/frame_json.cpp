@@ -67,7 +67,7 @@ constexpr std::array<FrameField, 20> of_robot{{
     whole<&R::alive>("alive", 0, 1, "0: dead"),
     whole<&R::connected>("connected", 0, 1, "1: alive and in the root's radio component"),
     whole<&R::epoch>("epoch", 0, 65535, "counts the trees"),
-    whole<&R::label_cm>("label_cm", -1, 65535, "distance to the root along hops when the epoch began, -1: unknown"),
+    real<&R::label_m>("label_m", 2, -1, far, "distance to the root along hops when the epoch began, -1: unknown"),
     whole<&R::depth>("depth", 0, 65535, "in the tree, root 1; 0: no path of tree edges to the root"),
     whole<&R::parent>("parent", -1, last_index, "robot index, -1: nobody"),
     whole<&R::old_parent>("old_parent", -1, last_index, "in the old tree while trees are switched, -1: nobody"),

@@ -56,8 +56,9 @@ void put(DatagramWriter& out, const Report& r) {
   for (const RobotId id : {r.parent, r.old_parent, r.serves, r.root, r.grant, r.request}) put_id(out, id);
   for (const RobotId id : r.kept) put_id(out, id);
   for (const std::uint16_t number : {r.root_sequence, r.epoch, r.depth}) out.put(number);
-  out.put(r.label_cm);
-  out.put(r.want_m);
+  out.put(r.label);
+  out.put(r.want);
+  out.put(std::uint8_t{r.out_of_scale});
   const Tally& t = r.tally;
   for (const std::uint32_t n : {t.insertions, t.handovers, t.repairs, t.elections, t.replacements, t.rejected})
     out.put(n);
@@ -78,8 +79,11 @@ std::optional<Report> take_report(DatagramReader& in) noexcept {
   for (RobotId* id : {&r.parent, &r.old_parent, &r.serves, &r.root, &r.grant, &r.request}) *id = take_id(in);
   for (RobotId& id : r.kept) id = take_id(in);
   for (std::uint16_t* number : {&r.root_sequence, &r.epoch, &r.depth}) *number = in.take<std::uint16_t>();
-  r.label_cm = in.take<std::int32_t>();
-  r.want_m = in.take_float();
+  r.label = in.take_float();
+  r.want = in.take_float();
+  const auto out_of_scale = in.take<std::uint8_t>();
+  sound = sound && out_of_scale <= 1;
+  r.out_of_scale = out_of_scale == 1;
   Tally& t = r.tally;
   for (std::uint32_t* n : {&t.insertions, &t.handovers, &t.repairs, &t.elections, &t.replacements, &t.rejected})
     *n = in.take<std::uint32_t>();
