@@ -96,7 +96,7 @@ void take_census(TreeRobot& robot, float rest_distance_m, float own_want_m) noex
 
   self.subtree = saturated(sums.robots);
   self.subtree_workers = saturated(sums.workers);
-  self.count = saturated(algorithm2_count(sums.children, sums.counts, self.depth), UINT16_MAX);
+  self.count = saturated(algorithm2_count(sums.children, sums.counts, self.depth));
   self.want_m = sums.want_m;
   watch_progress(robot);
   self.pull = sums.pulling > 0 ? sums.pull / static_cast<float>(sums.pulling) : Vec2{};
