@@ -114,9 +114,8 @@ TEST_P(EveryTree, AWorkerFindsItsWayIntoTheTree) {
   }
 }
 
-// Ids beyond 16 bits, where this build has them.
-constexpr std::uint32_t far_off = has_wide_ids ? 110'880 : 55'440;
-constexpr auto large_id = static_cast<RobotId>(10 + far_off);
+constexpr RobotId far_off = 55'440;
+constexpr RobotId large_id = 10 + far_off;
 
 // A swarm with large ids does the same as one with small ones, if the difference is a multiple of all the periods in
 // which robots take turns by their ids.
@@ -136,14 +135,13 @@ TEST_P(EveryTree, OnlyTheOrderOfIdsCounts) {
   EXPECT_EQ(large.reports[robots - 1].parent, small.reports[robots - 1].parent + far_off);
 }
 
-// Over the wire too, in messages that are longer only if ids are wide.
+// Over the wire too.
 TEST_P(EverySwarm, RobotsWithTheLargestIdsAreHeard) {
   Row r{*GetParam().algorithm, GetParam().reading, 1, large_id};
   r.tick();
   std::array<std::uint8_t, largest_wire> bytes{};
   const std::size_t size = r.swarm->send(1, bytes);
-  EXPECT_EQ((bytes[0] & block::wide_ids) != 0, has_wide_ids);
-  EXPECT_EQ(size > r.swarm->message_bytes(), has_wide_ids) << "of small ids";
+  EXPECT_EQ(size, r.swarm->message_bytes());
   const auto place = r.swarm->receive(std::span(bytes).first(size));
   ASSERT_TRUE(place.has_value());
   std::vector<double> numbers(r.swarm->message_fields().size());

@@ -30,8 +30,8 @@ struct FrameField {
   bool optional = false;  // left out where it is 0 for all robots
 };
 
-constexpr double far = 1e12;             // m: beyond, a position is damage
-constexpr double last_index = 999999.0;  // of a robot or a target, whatever ids this build has
+constexpr double far = 1e12;                      // m: beyond, a position is damage
+constexpr double last_index = most_robots - 1.0;  // of a robot or a target
 constexpr double most_of_event = 4294967294.0;
 
 template <auto member> double get(const RobotFrame& robot) { return static_cast<double>(robot.*member); }

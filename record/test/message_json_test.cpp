@@ -56,8 +56,8 @@ struct Rows {
   void flag(const char* name, const char*, bool) { add(name, 1, "bit"); }
   template <class T> void number(const char* name, const char*, const T&) { add(name, sizeof(T), "byte"); }
   template <class T> void known(const char* name, const char*, const T&) { add(name, sizeof(T), "byte"); }
-  void robot(const char* name, const char*, RobotId) { add(name, wire::narrow, "byte"); }
-  void count(const char* name, const char*, RobotCount) { add(name, wire::narrow, "byte"); }
+  void robot(const char* name, const char*, RobotId) { add(name, 2, "byte"); }
+  void count(const char* name, const char*, RobotCount) { add(name, 2, "byte"); }
   template <class T> void scaled(const char* name, const char*, const T&, float) { add(name, sizeof(T), "byte"); }
   void real(const char* name, const char*, float, float) { add(name, 4, "byte"); }
 };

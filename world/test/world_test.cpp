@@ -317,8 +317,7 @@ TEST(World, NeedsAtMostNineAndAHalfKilobytesPerRobot) {
       s.swarm.start.pitch_m = 1.3;
       World world(s);
       for (int t = 0; t < 5; ++t) world.step();
-      const std::size_t all = robots * most * (has_wide_ids ? 3 : 2) / 2;  // of wide ids half as much again
-      EXPECT_LE(world.memory_bytes(), all) << algorithm << ", " << reading << ", " << robots << " robots";
+      EXPECT_LE(world.memory_bytes(), robots * most) << algorithm << ", " << reading << ", " << robots << " robots";
     }
 }
 
