@@ -128,7 +128,7 @@ TYPED_TEST_SUITE(MessageFields, MessageTypes);
 TYPED_TEST(MessageFields, ShowEverythingThatTravels) {
   TypeParam message;
   message.id = 1;
-  message.q_x_m = message.q_y_m = 0.5F;  // minus nothing is nothing
+  message.q_x = message.q_y = 0.5F;  // minus nothing is nothing
   std::set<std::string_view> names;
   for (const FieldInfo& field : test::saying(message)->message_fields()) {
     EXPECT_TRUE(names.insert(field.name).second) << field.name;

@@ -59,6 +59,7 @@ struct Rows {
   void robot(const char* name, const char*, RobotId) { add(name, 2, "byte"); }
   void count(const char* name, const char*, RobotCount) { add(name, 2, "byte"); }
   template <class T> void scaled(const char* name, const char*, const T&, float) { add(name, sizeof(T), "byte"); }
+  void coordinate(const char* name, const char*, Coordinate) { add(name, 2, "byte"); }
   void real(const char* name, const char*, float, float) { add(name, 4, "byte"); }
 };
 

@@ -288,9 +288,9 @@ TEST(World, TheScenarioSetsTheParameters) {
   const World world(s);
   EXPECT_NO_THROW(static_cast<void>(swarm_as<LiteralSwarm<inwards_literal_step>>(world.swarm())));
   EXPECT_FLOAT_EQ(tree_params(world.swarm()).target_gain, 0.4F);
-  EXPECT_FLOAT_EQ(tree_params(world.swarm()).communication_range_m, 2.5F);
-  EXPECT_FLOAT_EQ(tree_params(world.swarm()).wheel_limit_m_s, 0.1F);
-  EXPECT_FLOAT_EQ(tree_params(world.swarm()).ideal_distance_m, 1.540841F);
+  EXPECT_FLOAT_EQ(tree_params(world.swarm()).rounds_per_drive, 250.0F);
+  EXPECT_FLOAT_EQ(tree_params(world.swarm()).body_radius, 0.02816F);
+  EXPECT_FLOAT_EQ(tree_params(world.swarm()).ideal_distance, 0.7704205F);
 }
 
 TEST(World, AnImpossibleScenarioIsRefusedWithAllItsFaults) {
