@@ -500,24 +500,17 @@ TEST_F(Program, AlgorithmsAreListedWithTheirParameters) {
   EXPECT_TRUE(tau.empty());
 }
 
-// Which lengths follow the radio is each algorithm's own choice: Table I's do not, convoy's and the rivals' do.
-TEST_F(Program, AlgorithmsSayWhatAParameterMayBeAndWhatItGrowsWith) {
-  const auto text = run({"algorithms"}).out;
-  EXPECT_TRUE(has(
-      text, "; 0.05 to 100, grows with mission.scale (outwards, inwards), grows with C and mission.scale (convoy)\n"))
-      << text;
-  EXPECT_TRUE(has(run({"algorithms", "convoy"}).out, "; 0.05 to 100, grows with C and mission.scale\n"));
-
-  std::map<std::string, std::string> scaling{{"safe_range_m", "grows with C and mission.scale"},
-                                             {"clearance", "in units of C, in metres never less than for C = 2 m"},
-                                             {"target_gain", ""}};
+TEST_F(Program, AlgorithmsSayWhatAParameterMayBeAndWhetherItGrowsWithTheBody) {
+  const auto text = run({"algorithms", "convoy"}).out;
+  EXPECT_TRUE(has(text, "; 0 to 1, more for larger bodies\n")) << text;
+  std::map<std::string, bool> grows{{"safe_range", false}, {"clearance", true}, {"target_gain", false}};
   const auto list = json::parse(run({"algorithms", "convoy", "--json"}).out);
   for (const auto& row : list[0]["parameters"])
-    if (const auto own = scaling.find(row["key"]); own != scaling.end()) {
-      EXPECT_EQ(row["scaling"], own->second) << row["key"];
-      scaling.erase(own);
+    if (const auto own = grows.find(row["key"]); own != grows.end()) {
+      EXPECT_EQ(row["grows_with_body"], own->second) << row["key"];
+      grows.erase(own);
     }
-  EXPECT_TRUE(scaling.empty());
+  EXPECT_TRUE(grows.empty());
 }
 
 // Two algorithms may mean different things by one key.
