@@ -106,6 +106,10 @@ static std::size_t longest_way(const Scenario& scenario) {
   return (latency - 1) * substeps + static_cast<std::size_t>(std::ceil(static_cast<double>(substeps) / slowest)) + 2;
 }
 
+double drive_s(const Scenario& scenario) noexcept { return scenario.radio.range_m / scenario.robot.wheel_limit_m_s; }
+
+double time_rounding_s(const Scenario& scenario) noexcept { return 1e-8 * scenario.tick_s; }
+
 double time_limit_s(const Scenario& scenario) {
   if (scenario.mission.time_limit_s > 0.0) return scenario.mission.time_limit_s;
   double farthest = 0.0;

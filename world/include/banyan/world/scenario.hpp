@@ -270,6 +270,12 @@ struct Scenario {
 // Between neighbours of the start; in a random one the least between any two robots.
 [[nodiscard]] double start_pitch_m(const Scenario& scenario);
 
+// A drive: the time in which a robot covers C at full speed, 10 s by default. What motion takes is counted in drives.
+[[nodiscard]] double drive_s(const Scenario& scenario) noexcept;
+
+// Times are multiples of ticks, each rounded: two that differ by no more than this are the same.
+[[nodiscard]] double time_rounding_s(const Scenario& scenario) noexcept;
+
 // mission.time_limit_s, or 10 r / v_max (paper Sec. IV-B).
 [[nodiscard]] double time_limit_s(const Scenario& scenario);
 
