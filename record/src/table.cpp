@@ -46,7 +46,7 @@ constexpr Column<Row> identifying_table[] = {
     {"targets", "number of targets at the start", 0, [](const Row& r) { return natural(r.id.targets); }},
     {"target_radius_m", "the farthest target from the centre of the start", 4,
      [](const Row& r) -> Cell { return r.id.target_radius_m; }, "farthest target (m)"},
-    {"redundancy", "the paper's k: robots in units of sum |p| / 1.540841 m", 4,
+    {"redundancy", "the paper's k: robots in units of sum |p| / 0.77 C", 4,
      [](const Row& r) -> Cell { return r.id.redundancy; }},
     {"range_m", "communication range C", 4, [](const Row& r) -> Cell { return r.id.range_m; }, "radio range C (m)"},
     {"tick_s", "length of a tick", 4, [](const Row& r) -> Cell { return r.id.tick_s; }, "length of a tick (s)"},
@@ -332,8 +332,7 @@ Identification identify(const world::Scenario& scenario, std::string_view versio
     sum_m += far_m;
     id.target_radius_m = std::max(id.target_radius_m, far_m);
   }
-  constexpr double paper_spacing_m = 1.540841;  // delta of inwards (protocol 2, row 10)
-  const double given = static_cast<double>(scenario.swarm.robots.value_or(0)) * paper_spacing_m;
+  const double given = static_cast<double>(scenario.swarm.robots.value_or(0)) * world::redundancy_edge_m(scenario);
   id.redundancy = !scenario.swarm.robots ? scenario.swarm.redundancy : sum_m > 0.0 ? given / sum_m : 0.0;
   id.range_m = scenario.radio.range_m;
   id.tick_s = scenario.tick_s;

@@ -161,7 +161,7 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"swarm.robots", of<&SwarmModel::robots>, "", robots_of_swarm, "number of robots",
      {.otherwise = "from redundancy, or the length of start.positions_m"}},
     {"swarm.redundancy", by<redundancy_of>, "", {0.0, 1000.0, true},
-     "the paper's k: ceil(k * sum of target distances / 1.540841 m) robots",
+     "the paper's k: ceil(k * sum of target distances / (0.7704205 * radio.range_m)) robots",
      {.not_beside = "robots", .selector = "swarm.start.layout"}},
     {"swarm.root", of<&SwarmModel::root>, "", any_robot,
      "index of the first root, counted from 0 at the centre of the start",

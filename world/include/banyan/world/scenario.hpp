@@ -47,7 +47,7 @@ struct Start {
 };
 
 struct SwarmModel {
-  std::optional<std::size_t> robots;  // none: from redundancy, ceil(k sum_i |p_i| / 1.540841) (protocol 2, row 10)
+  std::optional<std::size_t> robots;  // none: from redundancy, ceil(k sum_i |p_i| / redundancy_edge_m())
   double redundancy = 2.0;            // k
   Start start;
   std::optional<std::size_t> root;  // index; none: a random robot that is not a worker
@@ -262,6 +262,9 @@ struct Scenario {
 [[nodiscard]] std::vector<Vec2> target_positions(const Scenario& scenario);
 // Without the charging places.
 [[nodiscard]] std::vector<Vec2> mission_targets(const Scenario& scenario);
+
+// The edge by which swarm.redundancy counts: 0.7704205 C, which is delta of inwards (protocol 2, row 10).
+[[nodiscard]] double redundancy_edge_m(const Scenario& scenario) noexcept;
 
 // Number of robots: swarm.robots, or the paper's redundancy factor (protocol 2, row 10) of the mission's targets.
 // At least one more than targets and charging places.
