@@ -40,9 +40,7 @@ std::string_view scaling_text(const Algorithm& algorithm, std::size_t row) {
   wide.platform.communication_range_m = 2.0F * nominal_range_m;
   switch (algorithm.parameters()[row]->scaling) {
     case Scaling::none: return "";
-    case Scaling::mission:
-      return algorithm.values(wide)[row] == algorithm.values(Setup{})[row] ? "grows with mission.scale"
-                                                                           : "grows with C and mission.scale";
+    case Scaling::mission: return algorithm.values(wide)[row] == algorithm.values(Setup{})[row] ? "" : "grows with C";
     case Scaling::range: return "in units of C";
     case Scaling::body: return "in units of C, in metres never less than for C = 2 m";
   }
@@ -122,7 +120,7 @@ std::vector<ParameterGroup> said_of(std::string_view key, const std::vector<cons
   return said;
 }
 
-// "0.05 to 100, grows with mission.scale (outwards, inwards), grows with C and mission.scale (convoy)"
+// "0.05 to 100, grows with C (convoy)"
 std::string range_and_scaling(const ParameterGroup& said) {
   std::string text = range_text(*said.info);
   for (const auto& [scaling, names] : said.scaling) {

@@ -113,6 +113,12 @@ TEST(Config, DefaultsAreTheScenariosOwn) {
   EXPECT_EQ(std::get<world::RingTargets>(s.targets).count, 2U);
 }
 
+TEST(Config, AKeyThatWasSaysWhatIsWrittenInItsPlace) {
+  const auto loaded =
+      parse_configuration("w.toml", "[mission]\nscale = 0.5\n[targets]\nlayout = \"ring\"\n", algorithms());
+  EXPECT_TRUE(says(loaded, "w.toml:2: error: mission.scale: there is no such key any more: radio.range_m scales"));
+}
+
 TEST(Config, EveryFaultIsReportedAtOnceWithItsLine) {
   const auto loaded = parse(R"(nme = "x"
 seed = -1

@@ -132,7 +132,6 @@ const Algorithm& algorithm_of(const Scenario& scenario) {
 Setup setup_of(const Scenario& scenario) {
   Setup setup;
   setup.reading = scenario.mission.reading;
-  setup.scale = scenario.mission.scale;
   setup.platform.communication_range_m = static_cast<float>(scenario.radio.range_m);
   setup.platform.line_of_sight = scenario.radio.line_of_sight;
   setup.platform.tick_s = static_cast<float>(scenario.tick_s);

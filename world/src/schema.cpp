@@ -148,8 +148,6 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"mission.reading", word<&Mission::reading, reading_names>, "", any_value,
      "the paper as printed (literal), or with its gaps closed (corrected); literal has an effect with outwards and "
      "inwards only"},
-    {"mission.scale", of<&Mission::scale>, "", {0.0, 1000.0, true},
-     "factor on Table I's lengths S, A, delta, E and J (paper Sec. IV-C)"},
     {"mission.target_tolerance_m", of<&Mission::target_tolerance_m>, "m", any_length,
      "a target is reached when its worker is this near"},
     {"mission.time_limit_s", of<&Mission::time_limit_s>, "s", any_time,

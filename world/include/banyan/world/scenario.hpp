@@ -23,7 +23,6 @@ using Vec2 = BasicVec2<double>;
 struct Mission {
   std::string algorithm;              // a name in Scenario::algorithms
   std::string reading = "corrected";  // or "literal"
-  double scale = 1.0;                 // on Table I's lengths (paper Sec. IV-C, "rescaled")
   double target_tolerance_m = 0.20;
   double time_limit_s = 0.0;  // 0: 10 r / v_max, r the farthest target from the start's centre
   bool stop_when_complete = true;
@@ -285,7 +284,7 @@ struct Scenario {
 // The one that mission.algorithm names.
 [[nodiscard]] const Algorithm& algorithm_of(const Scenario& scenario);
 
-// What the swarm is made for: reading, scale, mission.parameters, and the platform (range, tick, wheels, drive)
+// What the swarm is made for: reading, mission.parameters, and the platform (range, tick, wheels, drive)
 // from `robot`, `radio` and `tick_s`.
 [[nodiscard]] Setup setup_of(const Scenario& scenario);
 
