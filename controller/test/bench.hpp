@@ -6,6 +6,7 @@
 #include <array>
 #include <deque>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "banyan/controller/convoy/convoy.hpp"
@@ -132,10 +133,10 @@ template <class Kind> class BenchOf {
   void call_back() { orders = {}; }
 
   // Packets of one tick go into the table, orders are followed and neighbours indexed, as a step does it.
-  // No more obstacles than the gate lets pass: the robot refers to them here.
   Robot tick(const Odometry& odometry = {}) {
     listen();
-    const Inputs<Heard> inputs(heard_, senses(odometry), test_platform);
+    const Inputs<Heard>& inputs =
+        *inputs_.emplace_back(std::make_shared<Inputs<Heard>>(heard_, senses(odometry), test_platform));
     Robot robot = Kind::robot(params, state, inputs, spaces_.emplace_back(inputs));
     begin_tick(robot, inputs);
     index_neighbors(robot);
@@ -171,7 +172,9 @@ template <class Kind> class BenchOf {
   }
   std::map<RobotId, Neighbor> neighbors_;
   std::vector<Heard> heard_;
-  std::deque<Workspace> spaces_;  // one for each robot
+  // What robots of single rooms refer to, for each of them
+  std::vector<std::shared_ptr<const Inputs<Heard>>> inputs_;
+  std::deque<Workspace> spaces_;
 };
 
 using Bench = BenchOf<Outwards>;
