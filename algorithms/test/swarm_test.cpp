@@ -107,7 +107,7 @@ TEST_P(EveryTree, AWorkerFindsItsWayIntoTheTree) {
   EXPECT_NE(r.reports[robots - 1].parent, nobody);
   EXPECT_EQ(r.number(robots - 1, "parent"), r.reports[robots - 1].parent);
   EXPECT_EQ(r.number(0, "parent"), -1.0) << "nobody";
-  EXPECT_EQ(row().number(2, "label_cm"), -1.0) << "unknown";
+  EXPECT_EQ(row().number(2, "label"), -1.0) << "unknown";
   for (std::size_t i = 0; i < robots; ++i) {
     EXPECT_EQ(r.reports[i].root, 10);
     EXPECT_EQ(r.swarm->report(i).parent, r.reports[i].parent);
@@ -276,7 +276,7 @@ RC_GTEST_PROP(Swarms, NoBrokenSensorMakesAVelocityInfiniteOrASecondRoot, ()) {
         RC_ASSERT(std::isfinite(v.forward_m_s) && std::isfinite(v.sideways_m_s) && std::isfinite(v.turn_rad_s));
       for (std::size_t i = 0; i < robots; ++i)
         RC_ASSERT(r.reports[i].root == before[i].root && r.reports[i].tally.elections == before[i].tally.elections);
-      RC_ASSERT(r.reports[robots - 1].want_m > 0.0F);
+      RC_ASSERT(r.reports[robots - 1].want > 0.0F);
       r.tick();
     }
   }

@@ -81,6 +81,11 @@ constexpr Foreign foreign_keys[] = {
     {"parts", "a study, which banyan study reads"},
 };
 
+// Keys that were, and what is written in their place.
+constexpr Foreign removed_keys[] = {
+    {"mission.scale", "radio.range_m scales the lengths of every algorithm: set that, and leave this out"},
+};
+
 }  // namespace
 
 // ---- What was written where ----
@@ -268,6 +273,9 @@ void ScenarioReader::require(const Part& part, std::span<const Key<Owner>> keys,
 }
 
 void ScenarioReader::report_unknown(const Place& place, const Part& part, const std::string& name) {
+  for (const Foreign& removed : removed_keys)
+    if (removed.key == join(part.shown, name))
+      return report(place, std::string(removed.key), "there is no such key any more: " + std::string(removed.means));
   const auto known = known_names(algorithms_);
   std::vector<std::string_view> here, elsewhere;
   std::vector<std::string> elsewhere_paths;

@@ -47,7 +47,7 @@ Scenario chain(std::size_t robots, double pitch_m) {
   s.swarm.root = 0;
   s.targets = std::vector<Vec2>{{static_cast<double>(robots - 1) * pitch_m + 3.0, 0.0}};
   s.mission.time_limit_s = 1000;
-  s.mission.parameters = {{"give_up_after_s", 300.0}};  // nor does the worker leave its target to others
+  s.mission.parameters = {{"give_up_after_drives", 30.0}};  // nor does the worker leave its target to others
   return s;
 }
 
@@ -377,7 +377,7 @@ constexpr TreeAlgorithmOf<Striding> striding("striding", "for this test", outwar
 TEST(Observer, CountsEpochsBeyondTheLastNumber) {
   Scenario s = chain(6, 1.1);
   s.mission.algorithm = "outwards";
-  s.mission.parameters = {{"reconfiguration_period_s", 2.0}};
+  s.mission.parameters = {{"reconfiguration_drives", 0.2}};
   World plain(s), wrapped(s, striding);
   Observer of_plain(plain), of_wrapped(wrapped);
   after(plain, of_plain, 300);
@@ -539,7 +539,7 @@ TEST(Observer, AWorkerThatNobodyReplacesIsNeverRecoveredFrom) {
   EXPECT_EQ(observer.last().targets_reached, 1U);
   EXPECT_FALSE(run.recovered);
   EXPECT_EQ(run.recovery_time_s, -1.0);
-  EXPECT_NEAR(run.time_s, run.last_death_s + 0.1 + recovery_limit_s, 1e-9);
+  EXPECT_NEAR(run.time_s, run.last_death_s + 0.1 + recovery_limit_drives * 10.0, 1e-9);
   const Vec2 body = world.positions()[probe.targets()[1].worker];
   EXPECT_GE(observer.last().worst_target_distance_m, distance(body, world.targets()[1].position) - 1e-12);
 }
@@ -619,7 +619,7 @@ TEST(Observer, WhatWasLostBeforeTheLimitIsWaitedForButNotWhatMayNeverCome) {
   Observer observer(world);
   while (!observer.finished()) after(world, observer, 1);
   EXPECT_FALSE(observer.run().complete);
-  EXPECT_NEAR(observer.run().time_s, 10.1 + recovery_limit_s, 1e-9);
+  EXPECT_NEAR(observer.run().time_s, 10.1 + recovery_limit_drives * 10.0, 1e-9);
   s.mission.stop_when_complete = false;
   World cut(s);
   Observer limit(cut);

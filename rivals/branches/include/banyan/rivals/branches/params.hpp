@@ -8,9 +8,9 @@
 
 namespace banyan::rivals::branches {
 
-// Distances in C and times are those of the authors' program, in which C is 0.8 m and a tick takes 0.1 s.
+// Distances and times are those of the authors' program, in which C is 0.8 m and a tick takes 0.1 s.
 struct Params : RivalParams {
-  constexpr Params() noexcept { longest_link = 1.875F; }
+  constexpr Params() noexcept { longest_link = 0.9375F; }
   float separation = 0.625F;
   float joining = 0.5625F;
   float spacing = 0.75F;

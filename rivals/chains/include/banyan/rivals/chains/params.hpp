@@ -8,11 +8,11 @@
 
 namespace banyan::rivals::chains {
 
-// Distances in C and times are those of the authors' program, in which C is 2.5 m and a tick takes 0.1 s.
+// Distances and times are those of the authors' program, in which C is 2.5 m and a tick takes 0.1 s.
 struct Params : RivalParams {
   constexpr Params() noexcept {
     liveness_rounds = 40.0F;
-    longest_link = 1.44F;  // MAX
+    longest_link = 0.72F;  // MAX
   }
   float safe_distance = 0.56F;      // SAFE
   float critical_distance = 0.64F;  // CRITICAL
