@@ -103,7 +103,7 @@ json random_tree() {
       }
     } else if (path == "mission.parameters") {
       for (const auto& info : algorithms().parameters()) {
-        if (!platform_key(info.key).empty() || *rc::gen::arbitrary<bool>()) continue;
+        if (*rc::gen::arbitrary<bool>()) continue;
         root["mission"]["parameters"][std::string(info.key)] =
             0.5 * (static_cast<double>(info.minimum) + static_cast<double>(info.maximum));
       }

@@ -67,17 +67,13 @@ void check_keys(FaultList& list, const std::string& shown, std::span<const Key<O
 
 void check_parameter(FaultList& list, const AlgorithmList& algorithms, const std::string& name, double value) {
   const std::string key = "mission.parameters." + name;
-  if (const std::string_view owner = platform_key(name); !owner.empty()) {
-    list.fail(key, "follows from the key " + std::string(owner) + ": set that instead");
-    return;
-  }
   std::vector<std::string_view> known;
   for (const ParameterInfo& info : algorithms.parameters()) {
     if (info.key == name) {
       check_range(list, key, value, {widened(info.minimum), widened(info.maximum)}, info.unit);
       return;
     }
-    if (platform_key(info.key).empty()) known.push_back(info.key);
+    known.push_back(info.key);
   }
   const std::string_view near = nearest_name(name, known);
   list.fail(
@@ -163,7 +159,9 @@ template <class Is> std::string of_those_here(const AlgorithmList& algorithms, c
 // What is possible does not depend on how large a robot is or how fast, but on how that compares with its radio and its
 // ticks.
 void check_proportions(FaultList& list, const Scenario& scenario) {
-  constexpr double fewest = 25.0, most = 2000.0, thinnest = 0.001, widest = 0.17, rounding = 1e-9;
+  const double fewest = widened(least_rounds_per_drive), most = widened(most_rounds_per_drive);
+  const double thinnest = widened(least_body_radius), widest = widened(most_body_radius);
+  constexpr double rounding = 1e-9;
   const double range = scenario.radio.range_m;
   const double drive = drive_s(scenario);
   const double ticks = drive / scenario.tick_s;
@@ -260,7 +258,7 @@ class Groups {
 };
 
 // How far from the start's centre robots may be, or be sent: farther away they would have no numbers for places.
-double farthest_m(const Scenario& scenario) { return 200.0 * scenario.radio.range_m; }
+double farthest_m(const Scenario& scenario) { return widened(farthest_target) * scenario.radio.range_m; }
 
 // "500 m from swarm.start.center_m; ..." if that is too far; else nothing.
 std::string far_text(const Scenario& scenario, Vec2 p) {

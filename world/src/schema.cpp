@@ -138,7 +138,7 @@ constexpr Key<Scenario> scenario_rows[] = {
      "names the run and its output directory; letters, digits, '-', '_' and '.'", {.otherwise = "the file's name"}},
     {"description", of<&Scenario::description>, "", any_value, "what this world is about, for readers"},
     {"tick_s", of<&Scenario::tick_s>, "s", {0.001, 10.0},
-     "length of a tick; robots broadcast, decide and move once a tick", {.parameter = "tick_s"}},
+     "length of a tick; robots broadcast, decide and move once a tick"},
     {"seed", of<&Scenario::seed>, "", any_seed, "determines everything random; the same seed gives the same run",
      {.only_in_files = true}},
 
@@ -192,9 +192,9 @@ constexpr Key<Scenario> scenario_rows[] = {
      "holonomic"},
     {"robot.radius_m", of<&RobotModel::radius_m>, "m", some_reach, "radius of the body"},
     {"robot.wheel_distance_m", of<&RobotModel::wheel_distance_m>, "m", some_reach,
-     "distance between the wheels", {.parameter = "wheel_distance_m"}},
+     "distance between the wheels"},
     {"robot.wheel_limit_m_s", of<&RobotModel::wheel_limit_m_s>, "m/s", {1e-4, 1000.0},
-     "largest speed of a wheel", {.parameter = "wheel_limit_m_s"}},
+     "largest speed of a wheel"},
     {"robot.wheel_noise", of<&RobotModel::wheel_noise>, "", any_share,
      "sigma of the factor on each wheel's speed, drawn every tick"},
     {"robot.wheel_bias", of<&RobotModel::wheel_bias>, "", any_share,
@@ -217,7 +217,7 @@ constexpr Key<Scenario> scenario_rows[] = {
      "which packets are lost within range and sight: disc, each with the same probability; bursts, many in a row; "
      "path_loss, more the farther away the sender is; one_way, between some pairs all those in one direction"},
     {"radio.range_m", of<&RadioModel::range_m>, "m", {0.01, long_range},
-     "C: two robots nearer than this hear each other", {.parameter = "communication_range_m"}},
+     "C: two robots nearer than this hear each other"},
     {"radio.line_of_sight", of<&RadioModel::line_of_sight>, "", any_value,
      "robots and obstacles in between block a packet"},
     {"radio.sight_leak", of<&RadioModel::sight_leak>, "", any_share,
@@ -347,11 +347,5 @@ std::span<const Key<Obstacle>> obstacle_keys() noexcept { return obstacle_rows; 
 std::span<const Key<Event>> event_keys() noexcept { return event_rows; }
 
 std::span<const Key<Scenario>> scenario_keys() noexcept { return scenario_rows; }
-
-std::string_view platform_key(std::string_view parameter) noexcept {
-  for (const Key<Scenario>& key : scenario_rows)
-    if (!parameter.empty() && key.terms.parameter == parameter) return key.path;
-  return {};
-}
 
 }  // namespace banyan::world
