@@ -31,8 +31,7 @@ Output<Message> step(const Growth& growth, const Reading& reading, const Params&
   for (const auto limit : {reading.guard_edges, reading.guard_links, reading.guard_obstacles}) limit(robot, guard);
   const Vec2 wanted = state.role == Role::spare ? u_spare(robot) : u(robot);  // Robot Motion
   const Vec2 v = clamped(guard.apply(clamped(wanted, 1.0F) * params.speed_gain), 1.0F);
-  write_vectors(robot);
-  return {static_cast<const Message&>(state), drive(v, guard, params)};
+  return {written(robot), drive(v, guard, params)};
 }
 
 // What is remembered is carried into the robot's present frame; the neighbour table is brought up to date.
@@ -109,22 +108,22 @@ void leave_tree(Robot& robot) noexcept {
   self.spare_state = SpareState::wait;
 }
 
-// The vectors of the message, each in the frame of the edge to its addressee.
-void write_vectors(Robot& robot) noexcept {
-  State& self = robot.self;
-  self.want = to_fixed<std::uint16_t>(self.way_left, per_range);
-  self.q_x = self.q_y = 0.0F;
-  self.pull_x = self.pull_y = 0;
-  self.centroid_x = self.centroid_y = {};
+// What it says of itself, with vectors in the frame of the edge to their addressee.
+Message written(const Robot& robot) noexcept {
+  const State& self = robot.self;
+  Message m = self;
+  m.want = to_fixed<std::uint16_t>(self.way_left, per_range);
   if (const int up = robot.up(); up >= 0) {
     constexpr float most = 0.5F * largest_q;  // turned, a component grows by up to sqrt 2
     const Vec2 q{std::clamp(self.q.x, -most, most), std::clamp(self.q.y, -most, most)};
     const Vec2 along = to_edge_frame(q, robot.position(up));
-    self.q_x = along.x, self.q_y = along.y;
-    write_in_edge_frame(self.pull, robot.position(up), pull_unit, self.pull_x, self.pull_y);
+    m.q_x = along.x, m.q_y = along.y;
+    write_in_edge_frame(self.pull, robot.position(up), pull_unit, m.pull_x, m.pull_y);
   }
-  if (const int k = robot.table().find(self.new_root); k >= 0)
-    write_in_edge_frame(self.centroid - robot.position(k), robot.position(k), self.centroid_x, self.centroid_y);
+  const int heir = robot.table().find(self.new_root);
+  if (heir < 0) m.new_root = nobody;  // it could not be told where the centroid is
+  else write_in_edge_frame(self.centroid - robot.position(heir), robot.position(heir), m.centroid_x, m.centroid_y);
+  return m;
 }
 
 State initial(RobotId id, bool worker, bool root) noexcept {

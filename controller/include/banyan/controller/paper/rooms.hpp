@@ -15,7 +15,7 @@ void begin_tick(Robot& robot, const Inputs<Heard>& inputs) noexcept;
 void index_neighbors(Robot& robot) noexcept;  // parent and children
 void update_role(Robot& robot) noexcept;      // Sec. III-A
 void leave_tree(Robot& robot) noexcept;
-void write_vectors(Robot& robot) noexcept;  // of the message
+[[nodiscard]] Message written(const Robot& robot) noexcept;
 
 // ---- epoch.cpp: Fig. 1 ----
 
