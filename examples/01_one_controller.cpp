@@ -9,7 +9,9 @@
 using namespace banyan;
 
 int main() {
-  const HealingParams params = outwards_defaults();
+  const Platform platform;  // what the robot is: a Khepera IV with a radio that reaches 2 m
+  HealingParams params = outwards_defaults();
+  static_cast<Machine&>(params) = machine_of(platform);
   HealingState states[2] = {initial_healing_state(0, false, true), initial_healing_state(1, true, false)};
   HealingMessage sent[2];  // what each robot said in the last tick
   Odometry odometry[2];    // how each moved since then; the root does not
@@ -25,12 +27,13 @@ int main() {
       Senses senses;
       senses.odometry = odometry[i];
       if (i == 1) senses.orders = {.sent = true, .target = rotate_back(heading[i], target - position[i])};
-      output[i] = outwards_step(params, states[i], {std::span(heard, tick > 0 ? 1 : 0), senses, params});
+      output[i] = outwards_step(params, states[i], {std::span(heard, tick > 0 ? 1 : 0), senses, platform});
     }
     sent[0] = output[0].message;
     sent[1] = output[1].message;
-    const float turn = output[1].velocity.turn_rad_s * params.tick_s;
-    odometry[1] = {output[1].velocity.forward_m_s * params.tick_s, 0.0F, turn};
+    const Velocity velocity = velocity_of(output[1].motion, platform);  // for the motors
+    const float turn = velocity.turn_rad_s * platform.tick_s;
+    odometry[1] = {velocity.forward_m_s * platform.tick_s, 0.0F, turn};
     position[1] += heading[1] * odometry[1].forward_m;
     heading[1] = unit(rotate(heading[1], unit_vector(turn)));
     if (tick % 25 == 24) std::printf("%4.1f s: %.2f m to go\n", 0.1 * tick + 0.1, 1.0 * distance(position[1], target));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An algorithm of your own, in a World like any other: these robots drive away from all nearer than a metre.
+// An algorithm of your own, in a World like any other: these robots drive away from all nearer than half the radio range.
 #include <algorithm>
 #include <cstdio>
 
@@ -18,7 +18,7 @@ template <class Visitor, class Message> constexpr void visit_fields(Visitor& vis
 }
 
 struct Spread {
-  using Params = Platform;  // what every algorithm is told: range of the radio, tick, wheels
+  using Params = Machine;  // what every algorithm is told: its body in C, its speed in rounds per C
   using Message = Hello;
   struct State {
     RobotId id;
@@ -27,20 +27,21 @@ struct Spread {
     const Hello* message;
     Vec2 position;
     float age_s;
-  };  // where the sender is: x ahead, y to the left
+  };  // where the sender is, in C: x ahead, y to the left
 
   static State initial(RobotId id, bool, bool) { return {id}; }
   static Output<Hello> step(const Params&, State& self, const Inputs<Heard>& inputs) {
     Vec2 away;
     for (const Heard& h : inputs.heard())  // what is not finite or too far has been dropped
-      if (const float d = norm(h.position); d < 1.0F && d > 0.0F) away -= h.position * ((1.0F - d) / d);
-    return {{self.id}, {std::clamp(away.x, 0.0F, 0.1F), 0.0F, std::clamp(4.0F * away.y, -1.0F, 1.0F)}};
+      if (const float d = norm(h.position); d < 0.5F && d > 0.0F) away -= h.position * ((0.5F - d) / d);
+    // In multiples of the fastest speed, and rad per C driven at that.
+    return {{self.id}, {std::clamp(2.0F * away.x, 0.0F, 0.5F), 0.0F, std::clamp(80.0F * away.y, -10.0F, 10.0F)}};
   }
   static Report report(const State&) { return {}; }  // what observers see: here neither roles nor parents
   static void add_to(Digest& digest, const State& self) { digest.add(self.id); }
 };
 
-constexpr AlgorithmOf<Spread> spread({.name = "spread", .summary = "keeps a metre away from other robots"});
+constexpr AlgorithmOf<Spread> spread({.name = "spread", .summary = "keeps half the radio range away from other robots"});
 
 int main() {
   world::World world(world::Scenario{}, spread);

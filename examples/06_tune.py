@@ -7,7 +7,7 @@ import numpy as np
 
 import banyan
 
-KEYS = ("target_gain", "interaction_gain", "ideal_distance_m")
+KEYS = ("target_gain", "interaction_gain", "ideal_distance")
 scenario = banyan.Scenario("scenarios/three-targets.toml", algorithm="outwards", set={"swarm.redundancy": 4})
 rows = {row["key"]: row for row in banyan.algorithms["outwards"]["parameters"]}
 low, high = (np.array([rows[key][bound] for key in KEYS]) for bound in ("minimum", "maximum"))

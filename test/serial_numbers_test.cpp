@@ -70,7 +70,7 @@ TEST(SerialNumbers, EveryPlainComparisonIsSeen) {
 }
 
 TEST(SerialNumbers, WhatIsNoPlainComparisonIsNot) {
-  for (const char* code : {"a->epoch == b.epoch", "out << a.epoch << b.epoch", "equal_as<int, &Token::epoch>(a, b)",
+  for (const char* code : {"a->epoch == b.epoch", "out << a.epoch << b.epoch", "f<int, &Token::epoch>(a, b)",
                            "a.epochs < b.epochs", "ahead_by(a.beat, b.beat) < 5", "std::max(0, age) + a.epoch",
                            "a > b ? c.epoch : d->epoch", "f<Serial>(a.epoch)"})
     EXPECT_EQ(plain_comparisons(code, "epoch|beat"), "") << code;

@@ -3,17 +3,17 @@
 
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/algorithms/swarms.hpp"
-#include "banyan/controller/core/platform_parameters.hpp"
+#include "banyan/controller/core/speed_parameter.hpp"
 
 namespace banyan {
 
 std::vector<BoundParameter> bind(HealingParams& params) {
-  return bind_all(params, tree_parameters(), healing_parameters(), platform_parameters<HealingParams>);
+  return bind_all(params, tree_parameters(), healing_parameters(), speed_parameter<HealingParams>);
 }
 
 std::vector<BoundParameter> bind(ConvoyParams& params) {
   return bind_all(params, tree_parameters(), convoy_parameters(), healing_parameters(), power_parameters(),
-                  platform_parameters<ConvoyParams>);
+                  speed_parameter<ConvoyParams>);
 }
 
 namespace {
@@ -28,7 +28,7 @@ class OfPaper final : public TreeAlgorithmOf<CorrectedSwarm<corrected_step>> {
   [[nodiscard]] bool knows_readings() const noexcept override { return true; }
   [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
     if (setup.reading != literal_reading_name) return Corrected::make(setup, members);
-    return std::make_unique<SwarmOf<LiteralSwarm<literal_step>>>(this->params(setup), members, setup.history);
+    return std::make_unique<SwarmOf<LiteralSwarm<literal_step>>>(this->params(setup), setup.platform, members, setup.history);
   }
 
  private:
@@ -41,7 +41,7 @@ class Convoy final : public TreeAlgorithmOf<ConvoySwarm> {
   using TreeAlgorithmOf::TreeAlgorithmOf;
   [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
     if (!setup.platform.battery) return TreeAlgorithmOf::make(setup, members);
-    return std::make_unique<SwarmOf<PoweredConvoySwarm>>(with_room_for_relief(params(setup)), members, setup.history);
+    return std::make_unique<SwarmOf<PoweredConvoySwarm>>(with_room_for_relief(params(setup)), setup.platform, members, setup.history);
   }
 };
 
@@ -64,7 +64,7 @@ const Algorithm& inwards() noexcept {
 const Algorithm& convoy() noexcept {
   static constexpr Convoy algorithm("convoy",
                                     "a sparse tree that its workers tow; spares join near the root, without travelling",
-                                    convoy_defaults, true);
+                                    convoy_defaults);
   return algorithm;
 }
 

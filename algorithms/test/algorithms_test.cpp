@@ -70,77 +70,68 @@ TEST(Algorithms, ValuesOfTheSetupCountAndUnknownKeysDoNot) {
   setup.arrival_distance_m = 0.3;
   for (const Algorithm* algorithm : algorithms()) {
     EXPECT_EQ(value_of(*algorithm, setup, "target_gain"), 0.25F);
-    EXPECT_EQ(value_of(*algorithm, setup, "arrival_distance_m"), 0.3F);
+    EXPECT_EQ(value_of(*algorithm, setup, "arrival_distance"), 0.15F) << "C is 2 m";
     EXPECT_EQ(algorithm->fault(setup), "");
   }
 }
 
-TEST(Algorithms, TableIsLengthsAreAbsoluteAndConvoysGrowWithTheRadio) {
-  banyan::Setup wide;
-  wide.platform.communication_range_m = 4.0F;
-  EXPECT_FLOAT_EQ(value_of(outwards(), wide, "ideal_distance_m"), 1.90F);
-  EXPECT_FLOAT_EQ(value_of(inwards(), wide, "ideal_distance_m"), 1.540841F);
-  EXPECT_FLOAT_EQ(value_of(convoy(), wide, "ideal_distance_m"), 3.80F);
-  EXPECT_FLOAT_EQ(value_of(convoy(), wide, "communication_range_m"), 4.0F);
+// Lengths are in C and times in rounds or drives, so no default depends on the robot; the tolerance is the mission's.
+TEST(Algorithms, DefaultsAreTheSameForEveryRobot) {
+  banyan::Setup drone;
+  drone.platform = {.communication_range_m = 1000.0F,
+                    .tick_s = 0.2F,
+                    .wheel_limit_m_s = 15.0F,
+                    .wheel_distance_m = 0.4F,
+                    .body_radius_m = 1.0F,
+                    .drive = Drive::holonomic};
+  drone.arrival_distance_m = 100.0;
+  for (const Algorithm* algorithm : algorithms()) {
+    EXPECT_EQ(algorithm->values(drone), algorithm->values(banyan::Setup{})) << algorithm->name();
+    EXPECT_EQ(algorithm->fault(drone), "") << algorithm->name();
+  }
 }
 
-// What a swarm is given: metres, whatever the unit of the table.
-TEST(Algorithms, LengthsInUnitsOfTheRadiosRangeAreResolvedToMetres) {
-  banyan::Setup setup;
-  setup.platform.communication_range_m = 3.0F;
-  setup.parameters = {{"clearance", 0.11}};
-  EXPECT_EQ(value_of(convoy(), setup, "clearance"), 0.11F) << "as the table has it";
-  EXPECT_EQ(value_of(convoy(), setup, "corridor_width"), 0.35F);
-  const auto swarm = convoy().make(setup, std::array<Member, 1>{{{.id = 0, .worker = false, .root = true}}});
-  const ConvoyParams& params = swarm_as<ConvoySwarm>(*swarm).params();
-  EXPECT_EQ(params.clearance_m, 0.11F * 3.0F);
-  EXPECT_EQ(params.corridor_width_m, 0.35F * 3.0F);
-  EXPECT_EQ(params.claim_radius_m, 0.45F * 3.0F);
-  EXPECT_FLOAT_EQ(params.ideal_distance_m, 2.85F) << "grows with the range, once";
-  setup.parameters = {{"pull_start", 0.96}};  // delta is 0.95 C
-  EXPECT_NE(convoy().fault(setup), "");
-}
+const ConvoyParams& params_of(const Swarm& swarm) { return swarm_as<ConvoySwarm>(swarm).params(); }
 
-// Bodies do not shrink with the radio: how far to keep from them follows C only upwards from where C is 2 m.
-TEST(Algorithms, RoomForBodiesDoesNotShrinkWithTheRadio) {
-  const auto params = [](float range_m, float wheels) {
+// Where bodies need room, bodies larger than a Khepera IV's at 2 m get as much more.
+TEST(Algorithms, RoomForBodiesGrowsWithThem) {
+  const auto params = [](float range_m, float radius_m) {
     banyan::Setup setup;
     setup.platform.communication_range_m = range_m;
-    setup.platform.wheel_distance_m *= wheels;
-    const auto swarm = convoy().make(setup, std::array<Member, 1>{{{.id = 0, .worker = false, .root = true}}});
-    return swarm_as<ConvoySwarm>(*swarm).params();
+    setup.platform.body_radius_m = radius_m;
+    return params_of(*convoy().make(setup, std::array<Member, 1>{{{.id = 0, .worker = false, .root = true}}}));
   };
-  const float clearance_m = params(2.0F, 1.0F).clearance_m;
-  EXPECT_FLOAT_EQ(params(0.6F, 1.0F).clearance_m, clearance_m);
-  EXPECT_FLOAT_EQ(params(4.0F, 1.0F).clearance_m, 2.0F * clearance_m);
-  EXPECT_FLOAT_EQ(params(1.0F, 0.5F).clearance_m, 0.5F * clearance_m) << "everything half as large";
-  EXPECT_FLOAT_EQ(params(0.6F, 1.0F).spare_avoidance_m, params(2.0F, 1.0F).spare_avoidance_m);
-  EXPECT_FLOAT_EQ(params(0.6F, 1.0F).corridor_width_m, 0.3F * params(2.0F, 1.0F).corridor_width_m)
-      << "a width of the chain's";
+  const ConvoyParams usual = params(2.0F, 0.0704F);
+  EXPECT_EQ(usual.clearance, 0.08F);
+  EXPECT_FLOAT_EQ(params(2.0F, 0.1408F).clearance, 2.0F * usual.clearance);
+  EXPECT_FLOAT_EQ(params(1.0F, 0.0704F).spare_avoidance, 2.0F * usual.spare_avoidance);
+  EXPECT_EQ(params(20.0F, 0.0704F).clearance, usual.clearance) << "never less";
+  EXPECT_EQ(params(1.0F, 0.0704F).corridor_width, usual.corridor_width) << "a width of the chain's";
 }
 
-TEST(Algorithms, ConvoyRefusesARadioThatReachesHardlyBeyondABody) {
-  banyan::Setup setup;
-  setup.platform.communication_range_m = 0.47F;
-  EXPECT_NE(convoy().fault(setup).find("distance between the wheels"), std::string::npos);
-  setup.platform.communication_range_m = 0.48F;
-  EXPECT_EQ(convoy().fault(setup), "");
-}
-
-TEST(Algorithms, TheScaleOfAMissionActsOnTheLengthsOfTableI) {
-  banyan::Setup half;
-  half.scale = 0.5;
-  EXPECT_FLOAT_EQ(value_of(outwards(), half, "ideal_distance_m"), 0.95F);
-  EXPECT_FLOAT_EQ(value_of(outwards(), half, "insertion_distance_m"), 0.04895F);
-  EXPECT_FLOAT_EQ(value_of(outwards(), half, "parent_margin_m"), 0.02F) << "no row of Table I";
-  EXPECT_FLOAT_EQ(value_of(outwards(), half, "target_gain"), 0.49F) << "no length";
+TEST(Algorithms, RefuseRobotsThatNoAlgorithmIsMadeFor) {
+  for (const Algorithm* algorithm : algorithms()) {
+    const auto fault = [&](float range_m, float radius_m, float tick_s) {
+      banyan::Setup setup;
+      setup.platform.communication_range_m = range_m;
+      setup.platform.body_radius_m = radius_m;
+      setup.platform.tick_s = tick_s;
+      return algorithm->fault(setup);
+    };
+    EXPECT_EQ(fault(2.0F, 0.33F, 0.1F), "");
+    EXPECT_NE(fault(2.0F, 0.35F, 0.1F).find("radius"), std::string::npos) << "wider than 0.17 C";
+    EXPECT_EQ(fault(2.0F, 0.0704F, 0.4F), "");
+    EXPECT_NE(fault(2.0F, 0.0704F, 0.41F).find("control periods"), std::string::npos) << "24 rounds per drive";
+    EXPECT_EQ(fault(2.0F, 0.0704F, 0.005F), "");
+    EXPECT_NE(fault(2.0F, 0.0704F, 0.0049F).find("control periods"), std::string::npos) << "2,041";
+  }
 }
 
 TEST(Algorithms, DistancesOutOfOrderAreAFault) {
   banyan::Setup setup;
-  setup.parameters = {{"safe_range_m", 1.95}};
+  setup.parameters = {{"safe_range", 0.975}};
   for (const Algorithm* algorithm : {&outwards(), &inwards()})
-    EXPECT_NE(algorithm->fault(setup).find("safe_range_m"), std::string::npos);
+    EXPECT_NE(algorithm->fault(setup).find("safe_range"), std::string::npos);
 }
 
 }  // namespace

@@ -107,16 +107,15 @@ TEST_P(EveryTree, AWorkerFindsItsWayIntoTheTree) {
   EXPECT_NE(r.reports[robots - 1].parent, nobody);
   EXPECT_EQ(r.number(robots - 1, "parent"), r.reports[robots - 1].parent);
   EXPECT_EQ(r.number(0, "parent"), -1.0) << "nobody";
-  EXPECT_EQ(row().number(2, "label_cm"), -1.0) << "unknown";
+  EXPECT_EQ(row().number(2, "label"), -1.0) << "unknown";
   for (std::size_t i = 0; i < robots; ++i) {
     EXPECT_EQ(r.reports[i].root, 10);
     EXPECT_EQ(r.swarm->report(i).parent, r.reports[i].parent);
   }
 }
 
-// Ids beyond 16 bits, where this build has them.
-constexpr std::uint32_t far_off = has_wide_ids ? 110'880 : 55'440;
-constexpr auto large_id = static_cast<RobotId>(10 + far_off);
+constexpr RobotId far_off = 55'440;
+constexpr RobotId large_id = 10 + far_off;
 
 // A swarm with large ids does the same as one with small ones, if the difference is a multiple of all the periods in
 // which robots take turns by their ids.
@@ -136,14 +135,13 @@ TEST_P(EveryTree, OnlyTheOrderOfIdsCounts) {
   EXPECT_EQ(large.reports[robots - 1].parent, small.reports[robots - 1].parent + far_off);
 }
 
-// Over the wire too, in messages that are longer only if ids are wide.
+// Over the wire too.
 TEST_P(EverySwarm, RobotsWithTheLargestIdsAreHeard) {
   Row r{*GetParam().algorithm, GetParam().reading, 1, large_id};
   r.tick();
   std::array<std::uint8_t, largest_wire> bytes{};
   const std::size_t size = r.swarm->send(1, bytes);
-  EXPECT_EQ((bytes[0] & block::wide_ids) != 0, has_wide_ids);
-  EXPECT_EQ(size > r.swarm->message_bytes(), has_wide_ids) << "of small ids";
+  EXPECT_EQ(size, r.swarm->message_bytes());
   const auto place = r.swarm->receive(std::span(bytes).first(size));
   ASSERT_TRUE(place.has_value());
   std::vector<double> numbers(r.swarm->message_fields().size());
@@ -278,7 +276,7 @@ RC_GTEST_PROP(Swarms, NoBrokenSensorMakesAVelocityInfiniteOrASecondRoot, ()) {
         RC_ASSERT(std::isfinite(v.forward_m_s) && std::isfinite(v.sideways_m_s) && std::isfinite(v.turn_rad_s));
       for (std::size_t i = 0; i < robots; ++i)
         RC_ASSERT(r.reports[i].root == before[i].root && r.reports[i].tally.elections == before[i].tally.elections);
-      RC_ASSERT(r.reports[robots - 1].want_m > 0.0F);
+      RC_ASSERT(r.reports[robots - 1].want > 0.0F);
       r.tick();
     }
   }

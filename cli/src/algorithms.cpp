@@ -33,22 +33,6 @@ std::vector<const Algorithm*> chosen(const std::string& name) {
   throw CommandError(exit_usage, text);
 }
 
-// What a default grows with, in words; "" if with nothing. Whether lengths follow the radio is the algorithm's own
-// choice, so it is asked for the defaults of two radios.
-std::string_view scaling_text(const Algorithm& algorithm, std::size_t row) {
-  Setup wide;
-  wide.platform.communication_range_m = 2.0F * nominal_range_m;
-  switch (algorithm.parameters()[row]->scaling) {
-    case Scaling::none: return "";
-    case Scaling::mission:
-      return algorithm.values(wide)[row] == algorithm.values(Setup{})[row] ? "grows with mission.scale"
-                                                                           : "grows with C and mission.scale";
-    case Scaling::range: return "in units of C";
-    case Scaling::body: return "in units of C, in metres never less than for C = 2 m";
-  }
-  return "";
-}
-
 std::string range_text(const ParameterInfo& info) {
   return value_text(info.minimum) + " to " + value_text(info.maximum);
 }
@@ -68,11 +52,10 @@ nlohmann::ordered_json json_of(const Algorithm& algorithm) {
                                   {"source", info.source},
                                   {"minimum", as_written(info.minimum)},
                                   {"maximum", as_written(info.maximum)},
-                                  {"scaling", scaling_text(algorithm, k)}};
+                                  {"grows_with_body", info.grows_with_body}};
     for (const auto reading : readings)
       row["default"][std::string(reading)] = as_written(defaults[k]);  // the same in both
-    const auto owner = platform_key(info.key);
-    row["set_by"] = owner.empty() ? "mission.parameters." + std::string(info.key) : std::string(owner);
+    row["set_by"] = "mission.parameters." + std::string(info.key);
     list.push_back(std::move(row));
   }
   return entry;
@@ -92,10 +75,10 @@ int column_width(const Algorithm& algorithm) { return std::max(9, static_cast<in
 struct ParameterGroup {
   const ParameterInfo* info;
   std::string names;
-  std::vector<std::pair<std::string_view, std::string>> scaling;  // and for which of them
 };
 bool is_same(const ParameterInfo& a, const ParameterInfo& b) {
-  return a.meaning == b.meaning && a.advice == b.advice && a.source == b.source && range_text(a) == range_text(b);
+  return a.meaning == b.meaning && a.advice == b.advice && a.source == b.source && range_text(a) == range_text(b) &&
+         a.grows_with_body == b.grows_with_body;
 }
 
 void append_name(std::string& names, std::string_view name) {
@@ -111,25 +94,10 @@ std::vector<ParameterGroup> said_of(std::string_view key, const std::vector<cons
     if (row == rows.end()) continue;
     auto group =
         std::find_if(said.begin(), said.end(), [&](const ParameterGroup& s) { return is_same(*s.info, **row); });
-    if (group == said.end()) group = said.insert(said.end(), {*row, "", {}});
+    if (group == said.end()) group = said.insert(said.end(), {*row, ""});
     append_name(group->names, algorithm->name());
-    const std::string_view scaling = scaling_text(*algorithm, static_cast<std::size_t>(row - rows.begin()));
-    auto& list_of = group->scaling;
-    auto same = std::find_if(list_of.begin(), list_of.end(), [&](const auto& entry) { return entry.first == scaling; });
-    if (same == list_of.end()) same = list_of.insert(list_of.end(), {scaling, ""});
-    append_name(same->second, algorithm->name());
   }
   return said;
-}
-
-// "0.05 to 100, grows with mission.scale (outwards, inwards), grows with C and mission.scale (convoy)"
-std::string range_and_scaling(const ParameterGroup& said) {
-  std::string text = range_text(*said.info);
-  for (const auto& [scaling, names] : said.scaling) {
-    if (scaling.empty()) continue;
-    text += ", " + std::string(scaling) + (said.scaling.size() > 1 ? " (" + names + ")" : "");
-  }
-  return text;
 }
 
 // A row for each key that one of them has. Where its meaning differs, each meaning is printed.
@@ -149,8 +117,7 @@ std::string table_text(const std::vector<const Algorithm*>& list) {
     for (const ParameterGroup& group : said) {
       const ParameterInfo* info = group.info;
       text += "    " + (said.size() > 1 ? group.names + ": " : "") + std::string(info->meaning);
-      if (const auto owner = platform_key(row.key); !owner.empty()) text += " (set by " + std::string(owner) + ")";
-      text += "; " + range_and_scaling(group);
+      text += "; " + range_text(*info) + (info->grows_with_body ? ", more for larger bodies" : "");
       text += "\n    " + std::string(info->advice) +
               (said.size() > 1 && info != said[0].info ? " (" + std::string(info->source) + ")" : "") + "\n";
     }

@@ -66,7 +66,7 @@ world::Scenario standing_scenario(const BenchLayout& layout) {
     // Without the tree's springs, which would push all robots apart to S, and with avoidance only
     // below the lattice's own pitch.
     s.mission.algorithm = "inwards";
-    s.mission.parameters = {{"avoidance_range_m", dense_pitch_m}, {"interaction_gain", 0.0}};
+    s.mission.parameters = {{"avoidance_range", dense_pitch_m / s.radio.range_m}, {"interaction_gain", 0.0}};
     s.swarm.start.pitch_m = dense_pitch_m;
     s.targets = world::RingTargets{.count = 4, .radius_m = 1.0};
   } else {

@@ -34,7 +34,6 @@ udp::RobotOptions robot_options(const world::Scenario& scenario, std::size_t i) 
   options.id = static_cast<RobotId>(i);
   options.algorithm = scenario.mission.algorithm;
   options.setup = world::setup_of(scenario);
-  options.radius_m = scenario.robot.radius_m;
   options.setup.history = 1;  // of packets that the robot itself delays
   return options;
 }

@@ -199,7 +199,7 @@ TEST_F(Program, RefusesBadValuesByOption) {
   bad("radio.range_m=nan", "radio.range_m: is nan; allowed: 0.05 to 100 m");
   bad("radio.range_m=inf", "radio.range_m: is inf; allowed: 0.05 to 100 m");
   bad("targets.radius_m=-1", "targets.radius_m: is -1; allowed: 0 to");
-  bad("swarm.robots=0", "swarm.robots: is 0; allowed: 2 to " + std::to_string(most_robots));
+  bad("swarm.robots=0", "swarm.robots: is 0; allowed: 2 to 65535");
   bad("swarm.robots=2", "swarm.robots: 2 robots cannot serve 2 targets");
   bad("swarm.start.pitch_m=0.1", "swarm.start.pitch_m: robots do not fit");
   bad("mission.algorithm=sideways", "mission.algorithm: must be \"outwards\"");

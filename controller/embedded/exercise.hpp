@@ -76,7 +76,7 @@ std::uint64_t exercise(Output<Message> (*step)(const Params&, State&, const Inpu
   Digest digest;
   const auto say = [&](std::size_t k, int tick) -> const TreeMessage* {
     speak_as(k, tick, said);
-    std::array<std::uint8_t, wire_size<Message>()> wire;  // ids are small
+    std::array<std::uint8_t, wire_size<Message>()> wire;
     encode_fields(said, wire);
     add_all(wire, digest);
     received[k] = decode_fields<Message>(wire);

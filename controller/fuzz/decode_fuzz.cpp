@@ -24,7 +24,7 @@ void require(bool holds) {
 }
 
 template <class Message> bool is_written_back(const Message& message, std::span<const std::uint8_t> bytes) {
-  std::array<std::uint8_t, longest_wire<Message>> wire;
+  std::array<std::uint8_t, wire_size<Message>()> wire;
   return encode_fields(message, wire) == bytes.size() && std::memcmp(wire.data(), bytes.data(), bytes.size()) == 0;
 }
 
@@ -39,7 +39,7 @@ void hear(Output<Message> (*step)(const Params&, State&, const Inputs<Heard>&) n
     senses.orders.target = Vec2{1.0F, 1.0F};
     const Output<Message> output = step(params, state, {{&heard, 1}, senses, params});
     require(std::isfinite(output.velocity.forward_m_s) && std::isfinite(output.velocity.turn_rad_s));
-    std::array<std::uint8_t, longest_wire<Message>> wire;
+    std::array<std::uint8_t, wire_size<Message>()> wire;
     const std::size_t size = encode_fields(output.message, wire);
     require(decode_fields<Message>(std::span(wire).first(size)) == output.message);
   }

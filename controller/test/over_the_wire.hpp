@@ -11,7 +11,7 @@
 namespace banyan {
 
 template <class Message> std::vector<std::uint8_t> encoded(const Message& message) {
-  std::vector<std::uint8_t> bytes(longest_wire<Message>);
+  std::vector<std::uint8_t> bytes(wire_size<Message>());
   bytes.resize(encode_fields(message, bytes));
   return bytes;
 }

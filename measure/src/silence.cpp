@@ -10,10 +10,11 @@ namespace banyan::measure {
 double liveness_period_s(const world::World& world) {
   const auto rows = world.algorithm().parameters();
   const auto row = std::find_if(rows.begin(), rows.end(),
-                                [](const ParameterInfo* info) { return info->key == "liveness_period_s"; });
+                                [](const ParameterInfo* info) { return info->key == "liveness_rounds"; });
   if (row == rows.end()) return usual_liveness_period_s;
-  return static_cast<double>(
-      world.algorithm().values(world::setup_of(world.scenario()))[static_cast<std::size_t>(row - rows.begin())]);
+  const float rounds =
+      world.algorithm().values(world::setup_of(world.scenario()))[static_cast<std::size_t>(row - rows.begin())];
+  return static_cast<double>(rounds) * world.scenario().tick_s;
 }
 
 // Parameters are in single precision: 0.7 s at 0.1 s are seven ticks although 0.7F is a little less.

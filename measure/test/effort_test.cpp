@@ -33,7 +33,7 @@ template <class Visitor, class M> constexpr void visit_fields(Visitor& visit, M&
 // What robots report after their n-th step. Robot 0 stands, 1 drives straight on at 0.1 m/s, 2 turns on the spot,
 // 3 drives there and back: two steps on, two steps back.
 struct Scripted {
-  using Params = Platform;
+  using Params = Machine;
   using Message = Nod;
   struct State {
     RobotId id;
@@ -47,8 +47,8 @@ struct Scripted {
   static State initial(RobotId id, bool, bool) { return {id, 0}; }
   static Output<Nod> step(const Params&, State& self, const Inputs<Heard>&) {
     ++self.steps;
-    const float speed_m_s = self.id == 1 ? 0.1F : self.id == 3 ? (self.steps % 4 < 2 ? 0.1F : -0.1F) : 0.0F;
-    return {{self.id}, {speed_m_s, 0.0F, self.id == 2 ? 1.0F : 0.0F}};
+    const float speed = self.id == 1 ? 0.5F : self.id == 3 ? (self.steps % 4 < 2 ? 0.5F : -0.5F) : 0.0F;
+    return {{self.id}, {speed, 0.0F, self.id == 2 ? 10.0F : 0.0F}};
   }
   static Report report(const State& self) {
     Report r;
@@ -71,7 +71,7 @@ class ScriptedAlgorithm final : public Algorithm {
   std::vector<float> values(const Setup&) const override { return {}; }
   std::string fault(const Setup&) const override { return {}; }
   std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
-    return std::make_unique<SwarmOf<Scripted>>(setup.platform, members, setup.history);
+    return std::make_unique<SwarmOf<Scripted>>(machine_of(setup.platform), setup.platform, members, setup.history);
   }
 };
 

@@ -29,7 +29,7 @@ struct Promise {
 std::vector<Promise> promises;
 
 struct Standing {
-  using Params = Platform;
+  using Params = Machine;
   using Message = Hello;
   struct State {
     RobotId id;
@@ -59,7 +59,7 @@ class StandingAlgorithm final : public Algorithm {
   std::vector<float> values(const Setup&) const override { return {}; }
   std::string fault(const Setup&) const override { return {}; }
   std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
-    return std::make_unique<SwarmOf<Standing>>(setup.platform, members, setup.history);
+    return std::make_unique<SwarmOf<Standing>>(machine_of(setup.platform), setup.platform, members, setup.history);
   }
 };
 

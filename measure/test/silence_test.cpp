@@ -82,7 +82,7 @@ TEST(Silence, TakesIFromTheTableOfTheAlgorithm) {
   EXPECT_NEAR(liveness_period_s(World(s)), 1.2, 1e-6);
   s.mission.algorithm = "inwards";
   EXPECT_NEAR(liveness_period_s(World(s)), 0.5, 1e-6);
-  s.mission.parameters = {{"liveness_period_s", 0.9}};
+  s.mission.parameters = {{"liveness_rounds", 9.0}};
   EXPECT_NEAR(liveness_period_s(World(s)), 0.9, 1e-6);
   World world(s);
   EXPECT_NEAR(Observer(world).result(world).liveness_period_s, 0.9, 1e-6);

@@ -17,20 +17,21 @@ namespace {
 
 std::int32_t index_of(RobotId id) noexcept { return id == nobody ? -1 : static_cast<std::int32_t>(id); }
 
-void capture_robot(const Report& state, RobotFrame& robot) noexcept {
+// Lengths in a report are multiples of the radio range.
+void capture_robot(const Report& state, double range_m, RobotFrame& robot) noexcept {
   robot.role = state.role;
   robot.phase = state.phase;
   robot.need = state.need;
   robot.spare_state = state.spare_state;
   robot.connected = false;
   robot.epoch = state.epoch;
-  robot.label_cm = state.label_cm;
+  robot.label_m = state.label < 0.0F ? -1.0 : range_m * static_cast<double>(state.label);
   robot.depth = state.depth;
   robot.parent = index_of(state.parent);
   robot.old_parent = index_of(state.old_parent);
   robot.grant = index_of(state.grant);
   robot.request = index_of(state.request);
-  robot.want_m = static_cast<double>(state.want_m);
+  robot.want_m = range_m * static_cast<double>(state.want);
   robot.target = -1;
 }
 
@@ -89,7 +90,7 @@ void capture(const world::World& world, Frame& frame) {
     robot.alive = world.alive()[i] != 0;
     robot.spent = world.charge().empty() ? 0.0 : 1.0 - world.charge()[i];
     robot.raised = i < world.raised().size() && world.raised()[i] != 0;
-    capture_robot(world.reports()[i], robot);
+    capture_robot(world.reports()[i], world.scenario().radio.range_m, robot);
   }
   mark_connected(world, frame.robots);
   capture_targets(world, frame);

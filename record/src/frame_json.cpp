@@ -30,8 +30,8 @@ struct FrameField {
   bool optional = false;  // left out where it is 0 for all robots
 };
 
-constexpr double far = 1e12;             // m: beyond, a position is damage
-constexpr double last_index = 999999.0;  // of a robot or a target, whatever ids this build has
+constexpr double far = 1e12;                      // m: beyond, a position is damage
+constexpr double last_index = most_robots - 1.0;  // of a robot or a target
 constexpr double most_of_event = 4294967294.0;
 
 template <auto member> double get(const RobotFrame& robot) { return static_cast<double>(robot.*member); }
@@ -67,13 +67,13 @@ constexpr std::array<FrameField, 20> of_robot{{
     whole<&R::alive>("alive", 0, 1, "0: dead"),
     whole<&R::connected>("connected", 0, 1, "1: alive and in the root's radio component"),
     whole<&R::epoch>("epoch", 0, 65535, "counts the trees"),
-    whole<&R::label_cm>("label_cm", -1, 65535, "distance to the root along hops when the epoch began, -1: unknown"),
+    real<&R::label_m>("label_m", 3, -1, far, "distance to the root along hops when the epoch began, -1: unknown"),
     whole<&R::depth>("depth", 0, 65535, "in the tree, root 1; 0: no path of tree edges to the root"),
     whole<&R::parent>("parent", -1, last_index, "robot index, -1: nobody"),
     whole<&R::old_parent>("old_parent", -1, last_index, "in the old tree while trees are switched, -1: nobody"),
     whole<&R::grant>("grant", -1, last_index, "the spare let into the edge to the parent, -1: nobody"),
     whole<&R::request>("request", -1, last_index, "the owner of the edge a spare wants to join, -1: nobody"),
-    real<&R::want_m>("want_m", 2, 0, far, "largest remaining worker distance below"),
+    real<&R::want_m>("want_m", 3, 0, far, "largest remaining worker distance below"),
     whole<&R::target>("target", -1, last_index, "index of the target the robot serves, -1: none"),
     if_any(whole<&R::raised>("raised", 0, 1,
                              "where sight leaks, 1: the antenna looks over bodies; left out if none does")),

@@ -9,9 +9,9 @@ namespace banyan::record {
 namespace {
 
 constexpr std::string_view elsewhere[] = {
-    "role",      "phase",     "need",       "id",       "epoch",   "label_cm",
-    "depth",     "parent",    "old_parent", "want_cm",  "request",  // in the frame
-    "root_x_cm", "root_y_cm", "task_x_cm",  "task_y_cm"};           // nowhere
+    "role",  "phase",  "need",       "id",   "epoch",   "label",
+    "depth", "parent", "old_parent", "want", "request",  // in the frame
+    "root_x", "root_y", "task_x", "task_y"};             // nowhere
 
 // The name behind an enumerator's field; nothing for other fields.
 std::string_view word(std::string_view field, double value) noexcept {

@@ -91,7 +91,7 @@ TEST(Capture, ShowsTheWorldAsItIs) {
       EXPECT_EQ(robot.role, state.role);
       EXPECT_EQ(robot.phase, state.phase);
       EXPECT_EQ(robot.parent, state.parent == nobody ? -1 : static_cast<int>(state.parent));
-      EXPECT_EQ(robot.label_cm, state.label_cm);
+      EXPECT_EQ(robot.label_m, state.label < 0.0F ? -1.0 : 2.0 * static_cast<double>(state.label)) << "C is 2 m";
       EXPECT_EQ(robot.alive, world.alive()[i] != 0);
       EXPECT_TRUE(robot.alive || !robot.connected);
       connected += robot.connected ? 1 : 0;

@@ -56,9 +56,10 @@ struct Rows {
   void flag(const char* name, const char*, bool) { add(name, 1, "bit"); }
   template <class T> void number(const char* name, const char*, const T&) { add(name, sizeof(T), "byte"); }
   template <class T> void known(const char* name, const char*, const T&) { add(name, sizeof(T), "byte"); }
-  void robot(const char* name, const char*, RobotId) { add(name, wire::narrow, "byte"); }
-  void count(const char* name, const char*, RobotCount) { add(name, wire::narrow, "byte"); }
+  void robot(const char* name, const char*, RobotId) { add(name, 2, "byte"); }
+  void count(const char* name, const char*, RobotCount) { add(name, 2, "byte"); }
   template <class T> void scaled(const char* name, const char*, const T&, float) { add(name, sizeof(T), "byte"); }
+  void coordinate(const char* name, const char*, Coordinate) { add(name, 2, "byte"); }
   void real(const char* name, const char*, float, float) { add(name, 4, "byte"); }
 };
 
@@ -99,18 +100,18 @@ std::map<std::string_view, double> numbers_of(const ConvoyMessage& message) {
 
 TEST(MessageFields, NobodyAndUnknownAreMinusOne) {
   const std::set<std::string_view> none{
-      "id",           "root_id", "label_cm",    "tree_hops",      "call_hops", "parent",   "old_parent",
+      "id",           "root_id", "label",       "tree_hops",      "call_hops", "parent",   "old_parent",
       "flood_parent", "grant",   "request",     "inserted_child", "warned",    "new_root", "serves",
       "told",         "task",    "task_holder", "task_host",      "above",     "below"};
   for (const auto& [name, number] : numbers_of({})) EXPECT_EQ(number, none.contains(name) ? -1.0 : 0.0) << name;
   ConvoyMessage message;
   message.pull_x = 8192;
-  message.q_x_m = 1.5F, message.q_y_m = -2.0F;
+  message.q_x = 1.5F, message.q_y = -2.0F;
   message.role = Role::worker;
   message.pinned = true;
   const auto numbers = numbers_of(message);
   EXPECT_EQ(numbers.at("pull_x"), 0.5);
-  EXPECT_EQ(numbers.at("q_y_m"), -2.0);
+  EXPECT_EQ(numbers.at("q_y"), -2.0);
   EXPECT_EQ(numbers.at("role"), 2.0);
   EXPECT_EQ(numbers.at("pinned"), 1.0);
 }
@@ -143,7 +144,7 @@ TEST_F(RecordedMessages, AreWhatWasSentAtEveryRecordedFrame) {
   mcap::Reader reader(path);
   EXPECT_EQ(reader.message_count(reader.find_channel("/banyan/messages")->id), sent_.size());
   EXPECT_EQ(reader.message_count(reader.find_channel("/banyan/frame")->id), sent_.size());
-  const std::set<std::string> nowhere{"root_x_cm", "root_y_cm", "task_x_cm", "task_y_cm"};
+  const std::set<std::string> nowhere{"root_x", "root_y", "task_x", "task_y"};
   const std::size_t robots = *scenario().swarm.robots;
   for (const auto& [tick, sent] : sent_) {
     const json messages = object(reader, "/banyan/messages", tick);
@@ -155,12 +156,13 @@ TEST_F(RecordedMessages, AreWhatWasSentAtEveryRecordedFrame) {
       const bool in_frame = !is_recorded(field) && !nowhere.contains(name);
       EXPECT_EQ(messages.contains(name), is_recorded(field)) << name;
       if (nowhere.contains(name) || name == "id") continue;
-      const bool centimetres = name == "want_cm";
-      const json& values = in_frame ? frame[centimetres ? "want_m" : name] : messages[name];
+      const bool length = name == "want" || name == "label";  // in metres in the frame
+      const json& values = in_frame ? frame[length ? name + "_m" : name] : messages[name];
       ASSERT_EQ(values.size(), robots) << name;
       for (std::size_t i = 0; i < robots; ++i) {
-        const double value = values.at(i).get<double>() * (centimetres ? 100.0 : 1.0);
-        EXPECT_NEAR(value, sent.numbers[i * sent.fields.size() + f], field.decimals == 0 ? 1e-6 : 0.51e-3)
+        const double number = sent.numbers[i * sent.fields.size() + f];
+        const double sent_m = number < 0.0 ? -1.0 : scenario().radio.range_m * (name == "label" ? number / 256.0 : number);
+        EXPECT_NEAR(values.at(i).get<double>(), length ? sent_m : number, field.decimals == 0 && !length ? 1e-6 : 0.51e-3)
             << name << " of " << i << " at " << tick;
       }
     }

@@ -30,7 +30,7 @@ template <class Visitor, class M> constexpr void visit_fields(Visitor& visit, M&
 }
 
 struct Shy {
-  using Params = Platform;
+  using Params = Machine;
   struct State {
     RobotId id = nobody;
     std::uint16_t fled_ticks = 0;
@@ -43,14 +43,14 @@ struct Shy {
   };
   static State initial(RobotId id, bool, bool) { return {id, 0}; }
   // Away from the nearest neighbour.
-  static Output<Message> step(const Params& params, State& self, const Inputs<Heard>& inputs) {
+  static Output<Message> step(const Params&, State& self, const Inputs<Heard>& inputs) {
     Output<Message> output;
-    Vec2 nearest{params.communication_range_m, 0.0F};
+    Vec2 nearest{1.0F, 0.0F};
     for (const Heard& h : inputs.heard())
       if (squared_norm(h.position) < squared_norm(nearest)) nearest = h.position;
-    if (norm(nearest) < 0.9F * params.communication_range_m) {
+    if (norm(nearest) < 0.9F) {
       ++self.fled_ticks;
-      output.velocity = {nearest.x > 0.0F ? -0.1F : 0.1F, 0.0F, nearest.y * nearest.x > 0.0F ? 0.5F : -0.5F};
+      output.motion = {nearest.x > 0.0F ? -0.5F : 0.5F, 0.0F, nearest.y * nearest.x > 0.0F ? 5.0F : -5.0F};
     }
     output.message.id = self.id;
     output.message.fled_ticks = self.fled_ticks;
@@ -72,7 +72,7 @@ class ShyAlgorithm final : public Algorithm {
   std::vector<float> values(const Setup&) const override { return {}; }
   std::string fault(const Setup&) const override { return {}; }
   std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
-    return std::make_unique<SwarmOf<Shy>>(setup.platform, members, setup.history);
+    return std::make_unique<SwarmOf<Shy>>(machine_of(setup.platform), setup.platform, members, setup.history);
   }
 };
 const ShyAlgorithm algorithm;

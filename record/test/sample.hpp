@@ -63,7 +63,7 @@ inline Frame sample_frame(std::size_t robots, double spread_m, std::uint64_t tic
     robot.alive = i % 40 != 17;
     robot.connected = robot.alive && i % 11 != 5;
     robot.epoch = static_cast<std::uint16_t>(1 + tick / 250);
-    robot.label_cm = i % 13 == 3 ? -1 : static_cast<std::int32_t>(100.0 * r);
+    robot.label_m = i % 13 == 3 ? -1.0 : r;
     robot.grant = i % 7 == 2 ? static_cast<std::int32_t>(i / 2) : -1;
     robot.request = i % 5 == 1 ? static_cast<std::int32_t>(i / 3) : -1;
     robot.want_m = 0.25 * static_cast<double>(i % 9);

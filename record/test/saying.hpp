@@ -12,7 +12,7 @@
 namespace banyan::record::test {
 
 template <class SomeMessage> struct Saying {
-  struct Params : Platform {
+  struct Params : Machine {
     SomeMessage words;
   };
   struct State {
@@ -39,7 +39,7 @@ template <class Message> std::unique_ptr<Swarm> saying(const Message& words) {
   using Speaker = Saying<Message>;
   typename Speaker::Params params;
   params.words = words;
-  auto swarm = std::make_unique<SwarmOf<Speaker>>(params, std::vector<typename Speaker::Member>(1), 1);
+  auto swarm = std::make_unique<SwarmOf<Speaker>>(params, Platform{}, std::vector<typename Speaker::Member>(1), 1);
   const Sensed nothing;
   Velocity command;
   Report report;

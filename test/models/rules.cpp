@@ -45,18 +45,19 @@ class Bench {
   }
   // All of them are in the table and have just been heard.
   template <class Call> void step(Call call) {
-    const Inputs<Heard> inputs(std::span<Heard>(heard_).first(count_), {}, params());
+    const Inputs<Heard> inputs(std::span<Heard>(heard_).first(count_), {}, platform);
     Workspace space(inputs);
     HealingRobot robot(params(), self(), inputs, space);
     begin_tick(robot, inputs);
     index_neighbors(robot);
     call(robot);
   }
+  static constexpr Platform platform{.communication_range_m = 1.0F, .wheel_limit_m_s = 0.1F};
   static HealingParams& params() {
     static HealingParams p = [] {
       HealingParams short_waits = inwards_defaults();
-      short_waits.insertion_timeout_s = 2;
-      short_waits.connector_patience_s = 2;
+      short_waits.insertion_drives = 0.2F;
+      short_waits.connector_rounds = 20.0F;
       return short_waits;
     }();
     return p;
@@ -82,7 +83,7 @@ Bench order_bench(int me, const Order& self) {
   s.epoch = self.epoch;
   s.phase = Phase::grow_tree;
   s.seqno = self.seqno;
-  s.label_cm = self.label;
+  s.label = self.label;
   s.parent = to_id(self.parent);
   s.root = {1, self.root ? s.id : elsewhere};
   return bench;
@@ -93,7 +94,7 @@ HealingMessage& order_hear(int id, const Order& heard, int cm) {
   m.epoch = heard.epoch;
   m.phase = Phase::grow_tree;
   m.seqno = heard.seqno;
-  m.label_cm = heard.label;
+  m.label = heard.label;
   m.parent = to_id(heard.parent);
   m.tree_hops = 0;
   m.depth = 1;
@@ -105,7 +106,7 @@ void order_read(Order& self) {
   const HealingState& s = Bench::self();
   self.epoch = s.epoch;
   self.seqno = s.seqno;
-  self.label = s.label_cm;
+  self.label = s.label;
   self.parent = from_id(s.parent);
 }
 
@@ -302,7 +303,7 @@ void service_step(int me, Service* self, int id, const Service* heard, int beats
     m.task_holder = to_id(heard->holder);
     m.task_beat = heard->beat;
     m.told = to_id(me);
-    m.task_x_cm = 100;
+    m.task_x = Coordinate::of(0.5F);
   }
   bench.step([&](HealingRobot& robot) {
     robot.self.is_worker = self->serving;
@@ -330,7 +331,7 @@ Bench stage_bench(int me, const Stage& self) {
   s.epoch = self.epoch;
   s.phase = static_cast<Phase>(self.phase);
   s.root = {1, 0};
-  s.label_cm = self.label;
+  s.label = self.label;
   s.flood_parent = to_id(self.flood_parent);
   s.flood_done = self.flood_done;
   s.flood_workers = self.flood_workers;
@@ -348,7 +349,7 @@ void stage_read(Stage& self) {
   const HealingState& s = Bench::self();
   self.epoch = s.epoch;
   self.phase = static_cast<unsigned char>(s.phase);
-  self.label = s.label_cm;
+  self.label = s.label;
   self.flood_parent = from_id(s.flood_parent);
   self.flood_done = s.flood_done;
   self.flood_workers = static_cast<unsigned char>(s.flood_workers);
@@ -368,7 +369,7 @@ void stage_step(int me, Stage* self, const Stage* const* heard, const int* from,
     m.epoch = h.epoch;
     m.phase = static_cast<Phase>(h.phase);
     m.root = {1, 0};
-    m.label_cm = h.label;
+    m.label = h.label;
     m.flood_parent = to_id(h.flood_parent);
     m.flood_done = h.flood_done;
     m.flood_workers = h.flood_workers;
@@ -395,7 +396,7 @@ void stage_step(int me, Stage* self, const Stage* const* heard, const int* from,
                           .workers_relay = true,
                           .accepts = always,
                           .prefers = [&](int a, int b) {
-                            return robot.table().message(a).label_cm < robot.table().message(b).label_cm;
+                            return robot.table().message(a).label < robot.table().message(b).label;
                           }});
     take_census(robot, 0);
   });
@@ -425,7 +426,7 @@ void insertion_step(int me, Insertion* self, const Insertion* const* heard, cons
   s.epoch = 1;
   s.phase = Phase::grow_tree;
   s.root = {1, 0};
-  s.label_cm = place(me);
+  s.label = place(me);
   s.seqno = seqno(self->parent, me);
   s.role = static_cast<Role>(self->role);
   s.need = static_cast<Need>(self->need);
@@ -443,7 +444,7 @@ void insertion_step(int me, Insertion* self, const Insertion* const* heard, cons
     HealingMessage& m = Bench::put(from[k], {0.5F, 0.1F * static_cast<float>(from[k])});
     m.epoch = 1;
     m.phase = Phase::grow_tree;
-    m.label_cm = place(from[k]);
+    m.label = place(from[k]);
     m.seqno = seqno(h.parent, from[k]);
     m.role = static_cast<Role>(h.role);
     m.need = static_cast<Need>(h.need);

@@ -7,7 +7,7 @@ import { loadDecompressHandlers } from '@mcap/support';
 
 /** The columns of src/frame.ts, in its order. */
 const columns = ['x_m', 'y_m', 'heading_rad', 'role', 'phase', 'need', 'spare_state', 'alive', 'connected', 'epoch',
-  'label_cm', 'depth', 'parent', 'old_parent', 'grant', 'request', 'want_m', 'target'];
+  'label_m', 'depth', 'parent', 'old_parent', 'grant', 'request', 'want_m', 'target'];
 
 function readable(file, size) {
   return {

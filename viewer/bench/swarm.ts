@@ -47,7 +47,7 @@ export function madeUpFrame(robots: number, pitchM: number, tick = 0): Frame {
     set('x_m', i, x); set('y_m', i, y); set('heading_rad', i, 6.28 * roll());
     set('role', i, role); set('phase', i, 3); set('need', i, 0); set('spare_state', i, 0);
     set('alive', i, roll() < 0.02 && i > 0 ? 0 : 1); set('connected', i, 1); set('epoch', i, 1);
-    set('label_cm', i, Math.round(100 * Math.hypot(x, y))); set('depth', i, 1); set('parent', i, parent); set('want_m', i, 0);
+    set('label_m', i, Math.hypot(x, y)); set('depth', i, 1); set('parent', i, parent); set('want_m', i, 0);
   });
   const far = points[robots - 1]!;
   return { tick, timeS: tick / 10, robots, data, targets: { x: Float64Array.of(1.2 * far[0], -far[1]), y: Float64Array.of(1.2 * far[1], far[0]), worker: Int32Array.of(-1, -1) } };

@@ -5,7 +5,7 @@
 /** The arrays of a /banyan/frame message, in this order (record/src/frame_json.cpp). */
 export const columns = [
   'x_m', 'y_m', 'heading_rad', 'role', 'phase', 'need', 'spare_state', 'alive', 'connected', 'epoch',
-  'label_cm', 'depth', 'parent', 'old_parent', 'grant', 'request', 'want_m', 'target', 'raised', 'spent',
+  'label_m', 'depth', 'parent', 'old_parent', 'grant', 'request', 'want_m', 'target', 'raised', 'spent',
 ] as const;
 export type Column = (typeof columns)[number];
 

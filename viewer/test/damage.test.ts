@@ -35,7 +35,7 @@ async function written(topics: Record<string, object[]>, options: object = {}, m
 }
 
 function frameJson(tick: number, robots = 2): Record<string, unknown> {
-  const arrays = columns.map((name) => [name, Array.from({ length: robots }, () => (name === 'label_cm' ? -1 : 0))]);
+  const arrays = columns.map((name) => [name, Array.from({ length: robots }, () => (name === 'label_m' ? -1 : 0))]);
   return { tick, time_s: tick / 10, ...Object.fromEntries(arrays) };
 }
 const setting = {

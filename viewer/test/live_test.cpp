@@ -188,7 +188,7 @@ TEST_F(LiveTest, AMessageHasItsFields) {
   const Json message = Json::parse(live.message_json(2));
   EXPECT_EQ(message["id"], 2);
   EXPECT_TRUE(message["role"].is_string());
-  EXPECT_TRUE(message["want_cm"].is_number());
+  EXPECT_TRUE(message["want"].is_number());
   EXPECT_EQ(live.message_json(36), "null");
 }
 

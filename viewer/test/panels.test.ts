@@ -36,7 +36,7 @@ describe('the inspector', () => {
     expect(names({ x_m: [0, 1], role: [0, 3], parent: [-1, 0], want_m: [0, 2] })).toEqual(
       ['position', 'heading', 'role', 'parent', 'children', 'want', 'target', 'alive', 'connected']);
     expect(names({ x_m: [0, 1], parent: [-1, 0], epoch: [3, 3] })).toEqual(['position', 'heading', 'epoch', 'parent', 'children', 'alive']);
-    for (const tree of [{ old_parent: [-1, 0] }, { phase: [0, 1] }, { depth: [0, 1] }, { label_cm: [-1, 0] }]) {
+    for (const tree of [{ old_parent: [-1, 0] }, { phase: [0, 1] }, { depth: [0, 1] }, { label_m: [-1, 0] }]) {
       const rows = names({ x_m: [0, 1], ...tree });
       expect(rows, JSON.stringify(tree)).toContain('parent');
       expect(rows).not.toContain('role');

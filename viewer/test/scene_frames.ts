@@ -5,7 +5,7 @@ import { columns, type Column, type Frame, type Setting } from '../src/frame';
 export function frameOf(values: Partial<Record<Column, readonly number[]>>, tick = 0): Frame {
   const robots = values.x_m?.length ?? 0;
   const data = new Float64Array(columns.length * robots);
-  const nobody: readonly Column[] = ['parent', 'old_parent', 'grant', 'request', 'target', 'label_cm'];
+  const nobody: readonly Column[] = ['parent', 'old_parent', 'grant', 'request', 'target', 'label_m'];
   columns.forEach((name, c) => {
     const given = values[name];
     for (let i = 0; i < robots; ++i) data[c * robots + i] = given ? given[i]! : name === 'alive' ? 1 : nobody.includes(name) ? -1 : 0;

@@ -324,8 +324,7 @@ void check_swarm_fits(FaultList& list, const Scenario& scenario) {
   const std::size_t robots = robot_count(scenario);
   if (robots > most("swarm.robots")) {
     list.fail("swarm.redundancy", "asks for " + std::to_string(robots) + " robots; at most " +
-                                      std::to_string(most("swarm.robots")) + " are possible" +
-                                      (has_wide_ids ? "" : ", or more in a build with -DBANYAN_ID_BITS=32"));
+                                      std::to_string(most("swarm.robots")) + " are possible");
     return;
   }
   if (scenario.swarm.root && *scenario.swarm.root >= robots)

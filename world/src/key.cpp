@@ -21,8 +21,6 @@ template <class Turn> Value turned(Value value, const Turn& turn) {
   return value;
 }
 
-std::string advice(const Range& range) { return range.beyond.empty() ? "" : "; " + std::string(range.beyond); }
-
 }  // namespace
 
 bool Range::holds(double x) const noexcept {
@@ -44,7 +42,7 @@ std::string range_text(const Range& range, std::string_view unit) {
 
 std::optional<std::string> range_fault(double x, const Range& range, std::string_view unit) {
   if (range.holds(x)) return std::nullopt;
-  return "is " + number_text(x) + "; allowed: " + range_text(range, unit) + (x > range.maximum ? advice(range) : "");
+  return "is " + number_text(x) + "; allowed: " + range_text(range, unit);
 }
 
 std::optional<std::string> whole_range_fault(std::int64_t n, const Range& range, std::string_view unit) {
@@ -52,7 +50,7 @@ std::optional<std::string> whole_range_fault(std::int64_t n, const Range& range,
   const bool above = range.maximum < 0x1p63 && n > static_cast<std::int64_t>(range.maximum);
   const bool below = range.minimum >= -0x1p63 && n < static_cast<std::int64_t>(range.minimum);
   if (!above && !below && range.holds(static_cast<double>(n))) return std::nullopt;
-  return "is " + std::to_string(n) + "; allowed: " + range_text(range, unit) + (above ? advice(range) : "");
+  return "is " + std::to_string(n) + "; allowed: " + range_text(range, unit);
 }
 
 std::optional<std::string> name_fault(std::string_view word, Names names) {

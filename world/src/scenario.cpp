@@ -128,12 +128,12 @@ const Algorithm& algorithm_of(const Scenario& scenario) {
 Setup setup_of(const Scenario& scenario) {
   Setup setup;
   setup.reading = scenario.mission.reading;
-  setup.scale = scenario.mission.scale;
   setup.platform.communication_range_m = static_cast<float>(scenario.radio.range_m);
   setup.platform.line_of_sight = scenario.radio.line_of_sight;
   setup.platform.tick_s = static_cast<float>(scenario.tick_s);
   setup.platform.wheel_limit_m_s = static_cast<float>(scenario.robot.wheel_limit_m_s);
   setup.platform.wheel_distance_m = static_cast<float>(scenario.robot.wheel_distance_m);
+  setup.platform.body_radius_m = static_cast<float>(scenario.robot.radius_m);
   setup.platform.drive = scenario.robot.body == BodyModel::linear ? Drive::holonomic : Drive::differential;
   setup.platform.battery = scenario.battery.on();
   setup.arrival_distance_m = scenario.mission.target_tolerance_m;

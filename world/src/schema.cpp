@@ -94,10 +94,9 @@ Obstacle* itself(Obstacle& o) noexcept { return &o; }
 constexpr double world_size = 1e4;  // m; beyond it single precision on robots loses the millimetre
 constexpr double long_time = 1e7;   // s
 constexpr Range any_value;
-constexpr std::string_view wider = has_wide_ids ? "" : "for more robots, build with -DBANYAN_ID_BITS=32";
-constexpr Range some_robots{1.0, most_robots, false, wider};
-constexpr Range robots_of_swarm{2.0, most_robots, false, wider};
-constexpr Range any_robot{0.0, most_robots - 1, false, wider};
+constexpr Range some_robots{1.0, most_robots};
+constexpr Range robots_of_swarm{2.0, most_robots};
+constexpr Range any_robot{0.0, most_robots - 1};
 constexpr Range anywhere{-world_size, world_size};
 constexpr Range any_length{0.0, world_size, true};
 constexpr Range any_time{0.0, long_time};

@@ -80,15 +80,12 @@ const std::vector<Case>& cases() {
        }},
       {"mission.parameters", "delta", [](Scenario& s) { s.mission.algorithm = "outwards", s.radio.range_m = 1.0; }},
       {"swarm.redundancy", "is 0; allowed: above 0", [](Scenario& s) { s.swarm.redundancy = 0; }},
-      {"swarm.redundancy", "robots; at most",
+      {"swarm.redundancy", "robots; at most 65535 are possible",
        [](Scenario& s) {
          s.swarm.redundancy = 1000, s.targets = RingTargets{60, 6000, 0, {}};
        }},
-      {"swarm.robots", "is 1; allowed: 2 to ", [](Scenario& s) { s.swarm.robots = 1; }},
-      {"swarm.robots",
-       has_wide_ids ? "is 1000001; allowed: 2 to 1000000"
-                    : "is 65536; allowed: 2 to 65535; for more robots, build with -DBANYAN_ID_BITS=32",
-       [](Scenario& s) { s.swarm.robots = most_robots + 1; }},
+      {"swarm.robots", "is 1; allowed: 2 to 65535", [](Scenario& s) { s.swarm.robots = 1; }},
+      {"swarm.robots", "is 65536; allowed: 2 to 65535", [](Scenario& s) { s.swarm.robots = 65536; }},
       {"swarm.robots", "3 robots cannot serve 3 targets", [](Scenario& s) { s.swarm.robots = 3; }},
       {"swarm.root", "there is no robot 9", [](Scenario& s) { s.swarm.robots = 9, s.swarm.root = 9; }},
       {"swarm.start.center_m[0]", "is nan; allowed: -10000 to 10000 m",
@@ -99,9 +96,7 @@ const std::vector<Case>& cases() {
        [](Scenario& s) {
          s.swarm.start.positions = {{0, 0}};
        }},
-      {"swarm.start.positions_m",
-       has_wide_ids ? "must have 1 to 1000000 entries, not 0" : "must have 1 to 65535 entries, not 0",
-       [](Scenario& s) { use_list(s, {}); }},
+      {"swarm.start.positions_m", "must have 1 to 65535 entries, not 0", [](Scenario& s) { use_list(s, {}); }},
       {"swarm.start.positions_m", "2 groups",
        [](Scenario& s) {
          use_list(s, {{0, 0}, {1, 0}, {3.1, 0}});

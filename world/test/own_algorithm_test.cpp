@@ -14,7 +14,7 @@ namespace {
 // inwards with another S.
 constexpr TreeAlgorithmOf<CorrectedSwarm<inwards_step>> mine("mine", "for this test", []() noexcept {
   HealingParams params = inwards_defaults();
-  params.safe_range_m = 1.45F;
+  params.safe_range = 0.725F;
   return params;
 });
 
@@ -55,13 +55,13 @@ TEST(OwnAlgorithm, DecidesWithItsOwnParameters) {
   const World world(Scenario{}, mine);
   EXPECT_EQ(world.scenario().mission.algorithm, "mine");
   EXPECT_EQ(&world.algorithm(), &mine);
-  EXPECT_FLOAT_EQ(tree_params(world.swarm()).safe_range_m, 1.45F);
+  EXPECT_FLOAT_EQ(tree_params(world.swarm()).safe_range, 0.725F);
   EXPECT_NE(hash_after_100_ticks(world), hash_after_100_ticks(World(Scenario{}, inwards())));
 }
 
 TEST(OwnAlgorithm, IsWhatItsModelIsWithTheSameParameters) {
   Scenario scenario;
-  scenario.mission.parameters = {{"safe_range_m", 1.45}};
+  scenario.mission.parameters = {{"safe_range", 0.725}};
   EXPECT_EQ(hash_after_100_ticks(World(Scenario{}, mine)), hash_after_100_ticks(World(scenario, inwards())));
 }
 
@@ -74,12 +74,12 @@ TEST(OwnAlgorithm, ItsWorldCanBeInterferedWith) {
 
 TEST(OwnAlgorithm, ImpossibleParametersAreToldWithItsName) {
   Scenario scenario;
-  scenario.mission.parameters = {{"safe_range_m", 1.2}};  // S below E
+  scenario.mission.parameters = {{"safe_range", 0.6}};  // S below E
   try {
     const World world(scenario, mine);
     FAIL() << "accepted";
   } catch (const std::invalid_argument& e) {
-    EXPECT_STREQ(e.what(), "mine: recruitment_distance_m (E) must be below safe_range_m (S)");
+    EXPECT_STREQ(e.what(), "mine: recruitment_distance (E) must be below safe_range (S)");
   }
 }
 

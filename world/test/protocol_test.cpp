@@ -61,7 +61,7 @@ std::string chain(const World& world, std::size_t i) {
   for (int hop = 0; hop < 8 && i < world.size(); ++hop) {
     const TreeState& s = tree_state(world.swarm(), i);
     text += std::to_string(i) + " [epoch " + std::to_string(s.epoch) + " seqno " + std::to_string(s.seqno) + " label " +
-            std::to_string(s.label_cm) + "] -> ";
+            std::to_string(s.label) + "] -> ";
     i = s.parent;
   }
   return text;
@@ -115,7 +115,7 @@ TEST_P(Protocol, ParentsNeverFormACycleAndAreAheadOfTheirChildren) {
       }
       ASSERT_GE(parent.epoch, child.epoch) << chain(world, i);
       const bool ahead =
-          parent.seqno > child.seqno || (parent.seqno == child.seqno && parent.label_cm < child.label_cm);
+          parent.seqno > child.seqno || (parent.seqno == child.seqno && parent.label < child.label);
       ASSERT_TRUE(parent.epoch > child.epoch || ahead) << chain(world, i);
       std::size_t top = i;
       std::size_t hops = 0;
@@ -138,7 +138,7 @@ TEST_P(Protocol, GossipOnlyGrows) {
             ASSERT_GE(now.phase, before[i].phase) << i;
             ASSERT_GE(now.seqno, before[i].seqno) << i;
             // Within an epoch nobody falls back behind what it has sent.
-            ASSERT_TRUE(now.seqno > before[i].seqno || now.label_cm <= before[i].label_cm) << i;
+            ASSERT_TRUE(now.seqno > before[i].seqno || now.label <= before[i].label) << i;
           }
           ASSERT_FALSE(newer(before[i].root, now.root)) << i;
         }
@@ -210,7 +210,8 @@ TEST_P(Guarded, TheGuardBoundsEveryEdgeOfTheTree) {
           parents.assign(world.size(), nobody);
           taken_at_m.assign(world.size(), 0.0);
         }
-        const double delta_m = static_cast<double>(tree_params(world.swarm()).ideal_distance_m);
+        const double delta_m =
+            world.scenario().radio.range_m * static_cast<double>(tree_params(world.swarm()).ideal_distance);
         for (std::size_t i = 0; i < world.size(); ++i) {
           const Report& s = world.reports()[i];
           const bool taken = s.parent != parents[i];

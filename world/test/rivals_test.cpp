@@ -71,10 +71,12 @@ Scenario trying(const std::string& algorithm, std::uint64_t seed) {
   s.radio.latency_ticks = 1 + static_cast<int>(seed / 2 % 3);
   s.clocks.asynchronous = seed % 3 != 0;
   s.clocks.drift = s.clocks.asynchronous ? 0.1 : 0.0;
-  const double late_s = s.tick_s * (s.radio.latency_ticks + 1);
-  s.mission.parameters = {{"liveness_period_s", 20.0 * s.tick_s + late_s},
-                          {"guard_rate_per_s", std::min(1.0, 0.2 / late_s)},
-                          {"build_timeout_s", 25.0 + 100.0 * late_s},
+  const double late_rounds = s.radio.latency_ticks + 1;
+  const double late_s = s.tick_s * late_rounds;
+  const double drive_s = s.radio.range_m / s.robot.wheel_limit_m_s;
+  s.mission.parameters = {{"liveness_rounds", 20.0 + late_rounds},
+                          {"guard_rate", std::min(1.0, 0.2 / late_s) * drive_s},
+                          {"build_rounds", 25.0 / s.tick_s + 100.0 * late_rounds},
                           {"longest_link", longest}};
   return s;
 }

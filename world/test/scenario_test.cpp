@@ -79,7 +79,6 @@ TEST(Scenario, AlgorithmsAreSetUpFromMissionAndPlatform) {
   Scenario scenario = plain_scenario();
   scenario.mission.algorithm = "inwards";
   scenario.mission.reading = "literal";
-  scenario.mission.scale = 0.5;
   scenario.mission.target_tolerance_m = 0.15;
   scenario.mission.parameters = {{"target_gain", 0.125}};
   scenario.radio.range_m = 2.5;
@@ -87,9 +86,9 @@ TEST(Scenario, AlgorithmsAreSetUpFromMissionAndPlatform) {
   scenario.tick_s = 0.05;
   scenario.robot.wheel_limit_m_s = 0.3;
   scenario.robot.wheel_distance_m = 0.2;
+  scenario.robot.radius_m = 0.13;
   const banyan::Setup setup = setup_of(scenario);
   EXPECT_EQ(setup.reading, "literal");
-  EXPECT_EQ(setup.scale, 0.5);
   EXPECT_EQ(setup.arrival_distance_m, 0.15);
   EXPECT_EQ(setup.parameters, scenario.mission.parameters);
   EXPECT_EQ(setup.platform.communication_range_m, 2.5F);
@@ -97,12 +96,13 @@ TEST(Scenario, AlgorithmsAreSetUpFromMissionAndPlatform) {
   EXPECT_EQ(setup.platform.tick_s, 0.05F);
   EXPECT_EQ(setup.platform.wheel_limit_m_s, 0.3F);
   EXPECT_EQ(setup.platform.wheel_distance_m, 0.2F);
+  EXPECT_EQ(setup.platform.body_radius_m, 0.13F);
   EXPECT_EQ(setup.platform.drive, Drive::differential);
   scenario.robot.body = BodyModel::linear;
   EXPECT_EQ(setup_of(scenario).platform.drive, Drive::holonomic);
 }
 
-TEST(Scenario, TheAlgorithmsValuesAreItsTableScaledAndThenTheScenariosOwn) {
+TEST(Scenario, TheAlgorithmsValuesAreItsTableAndThenTheScenariosOwn) {
   Scenario scenario = plain_scenario();
   scenario.mission.algorithm = "inwards";
   const Algorithm& inwards = algorithm_of(scenario);
@@ -115,15 +115,12 @@ TEST(Scenario, TheAlgorithmsValuesAreItsTableScaledAndThenTheScenariosOwn) {
     ADD_FAILURE() << key;
     return 0.0F;
   };
-  const float recruitment_m = value("recruitment_distance_m");
-  const float patience_s = value("connector_patience_s");
+  const float recruitment = value("recruitment_distance");
   const float gain = value("target_gain");
-  scenario.mission.scale = 0.5;
   scenario.mission.parameters = {{"target_gain", 0.125}};
   EXPECT_NE(gain, 0.125F);
   EXPECT_EQ(value("target_gain"), 0.125F);
-  EXPECT_FLOAT_EQ(value("recruitment_distance_m"), 0.5F * recruitment_m);
-  EXPECT_EQ(value("connector_patience_s"), patience_s);
+  EXPECT_EQ(value("recruitment_distance"), recruitment);
 }
 
 TEST(Scenario, LeastRobotsHoldsForAStraightLineAndAStar) {

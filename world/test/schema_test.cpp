@@ -8,8 +8,6 @@
 #include <map>
 #include <set>
 
-#include "banyan/controller/core/platform_parameters.hpp"
-#include "banyan/controller/tree/params.hpp"
 #include "banyan/world/decimal.hpp"
 #include "plain_scenario.hpp"
 
@@ -124,22 +122,6 @@ TEST(Schema, OfTwoKeysThatExcludeEachOtherOneCounts) {
   scenario.swarm.robots = 12;
   EXPECT_EQ(effective(redundancy, keys, scenario).index(), 0U);
   EXPECT_EQ(effective(*find_key(keys, "swarm.robots"), keys, scenario), Value(std::int64_t{12}));
-}
-
-TEST(Schema, KeysOfThePlatformHaveTheRangeOfTheirParameter) {
-  EXPECT_EQ(platform_key("communication_range_m"), "radio.range_m");
-  EXPECT_EQ(platform_key("tick_s"), "tick_s");
-  EXPECT_EQ(platform_key("target_gain"), "");
-  EXPECT_EQ(platform_key(""), "");
-  int found = 0;
-  for (const ParameterInfo& row : platform_parameters<TreeParams>) {
-    const Key<Scenario>* key = find_key(scenario_keys(), platform_key(row.key));
-    if (key == nullptr) continue;  // speed_gain_m_s is the designer's
-    ++found;
-    EXPECT_EQ(key->range.minimum, widened(row.minimum)) << row.key;
-    EXPECT_EQ(key->range.maximum, widened(row.maximum)) << row.key;
-  }
-  EXPECT_EQ(found, 4);
 }
 
 }  // namespace

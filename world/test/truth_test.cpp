@@ -70,21 +70,21 @@ void expect_same(const World& here, const World& there, const std::vector<Vec2>&
 
   const HealingMessage& a = message_of(here, i);
   HealingMessage b = message_of(there, i);
-  ASSERT_NEAR(a.q_x_m, b.q_x_m, tolerance);
-  ASSERT_NEAR(a.q_y_m, b.q_y_m, tolerance);
+  ASSERT_NEAR(a.q_x, b.q_x, tolerance);
+  ASSERT_NEAR(a.q_y, b.q_y, tolerance);
   ASSERT_NEAR(a.pull_x, b.pull_x, tolerance * 16384);
   ASSERT_NEAR(a.pull_y, b.pull_y, tolerance * 16384);
-  // Rounded to centimetres on the wire: the last digit may differ.
-  ASSERT_NEAR(a.centroid_x_cm, b.centroid_x_cm, 1);
-  ASSERT_NEAR(a.centroid_y_cm, b.centroid_y_cm, 1);
-  ASSERT_NEAR(a.want_cm, b.want_cm, 1);
-  b.q_x_m = a.q_x_m;
-  b.q_y_m = a.q_y_m;
+  // Rounded on the wire: the last digit may differ.
+  ASSERT_NEAR(a.centroid_x.value(), b.centroid_x.value(), 1.0F / per_range);
+  ASSERT_NEAR(a.centroid_y.value(), b.centroid_y.value(), 1.0F / per_range);
+  ASSERT_NEAR(a.want, b.want, 1);
+  b.q_x = a.q_x;
+  b.q_y = a.q_y;
   b.pull_x = a.pull_x;
   b.pull_y = a.pull_y;
-  b.centroid_x_cm = a.centroid_x_cm;
-  b.centroid_y_cm = a.centroid_y_cm;
-  b.want_cm = a.want_cm;
+  b.centroid_x = a.centroid_x;
+  b.centroid_y = a.centroid_y;
+  b.want = a.want;
   ASSERT_EQ(a, b) << "says something else";
   const TreeState& s = tree_state(here.swarm(), i);
   const TreeState& o = tree_state(there.swarm(), i);

@@ -288,9 +288,9 @@ TEST(World, TheScenarioSetsTheParameters) {
   const World world(s);
   EXPECT_NO_THROW(static_cast<void>(swarm_as<LiteralSwarm<inwards_literal_step>>(world.swarm())));
   EXPECT_FLOAT_EQ(tree_params(world.swarm()).target_gain, 0.4F);
-  EXPECT_FLOAT_EQ(tree_params(world.swarm()).communication_range_m, 2.5F);
-  EXPECT_FLOAT_EQ(tree_params(world.swarm()).wheel_limit_m_s, 0.1F);
-  EXPECT_FLOAT_EQ(tree_params(world.swarm()).ideal_distance_m, 1.540841F);
+  EXPECT_FLOAT_EQ(tree_params(world.swarm()).rounds_per_drive, 250.0F);
+  EXPECT_FLOAT_EQ(tree_params(world.swarm()).body_radius, 0.02816F);
+  EXPECT_FLOAT_EQ(tree_params(world.swarm()).ideal_distance, 0.7704205F);
 }
 
 TEST(World, AnImpossibleScenarioIsRefusedWithAllItsFaults) {
@@ -317,8 +317,7 @@ TEST(World, NeedsAtMostNineAndAHalfKilobytesPerRobot) {
       s.swarm.start.pitch_m = 1.3;
       World world(s);
       for (int t = 0; t < 5; ++t) world.step();
-      const std::size_t all = robots * most * (has_wide_ids ? 3 : 2) / 2;  // of wide ids half as much again
-      EXPECT_LE(world.memory_bytes(), all) << algorithm << ", " << reading << ", " << robots << " robots";
+      EXPECT_LE(world.memory_bytes(), robots * most) << algorithm << ", " << reading << ", " << robots << " robots";
     }
 }
 

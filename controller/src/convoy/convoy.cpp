@@ -205,8 +205,8 @@ void write_convoy(const ConvoyRobot& robot, ConvoyMessage& m) noexcept {
 
 // What a robot may have on a chip, with and without batteries (docs/limits.md).
 static constexpr std::size_t most_state_bytes = 9728;
-static_assert(has_wide_ids || sizeof(ConvoyState) <= most_state_bytes);
-static_assert(has_wide_ids || sizeof(PoweredConvoyState) <= most_state_bytes);
+static_assert(sizeof(ConvoyState) <= most_state_bytes);
+static_assert(sizeof(PoweredConvoyState) <= most_state_bytes);
 
 ConvoyParams convoy_defaults() noexcept {
   ConvoyParams p;

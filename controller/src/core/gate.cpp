@@ -9,7 +9,6 @@ Gate::Gate(const Senses& senses, const Platform& platform) noexcept
     : per_metre_(1.0F / platform.communication_range_m),
       moved_(Vec2{senses.odometry.forward_m, senses.odometry.sideways_m} * per_metre_),
       turn_rad_(senses.odometry.turn_rad),
-      elapsed_s_(senses.elapsed_s),
       orders_(senses.orders),
       charge_(senses.charge) {
   if (!is_within(moved_, farthest_ranges) || !(std::fabs(turn_rad_) <= largest_turn_rad)) {
@@ -28,14 +27,13 @@ Gate::Gate(const Senses& senses, const Platform& platform) noexcept
     charge_.reset();
     ++rejected_;
   }
-  const float ticks = elapsed_s_ / platform.tick_s;
-  if (ticks >= 0.0F && ticks <= longest_step_ticks) {
-    elapsed_ticks_ = std::max(1, static_cast<int>(ticks + 0.5F));
-  } else {
-    elapsed_s_ = 0.0F;
+  const float rounds = senses.elapsed_s / platform.tick_s;
+  if (!(rounds >= 0.0F && rounds <= longest_step_ticks)) {
     ++rejected_;
+  } else if (rounds > 0.0F) {
+    elapsed_ = rounds;
+    elapsed_ticks_ = std::max(1, static_cast<int>(rounds + 0.5F));
   }
-  if (!(elapsed_s_ > 0.0F)) elapsed_s_ = platform.tick_s;
   if (!senses.obstacles.empty()) admit_obstacles(senses.obstacles);
 }
 
@@ -53,8 +51,8 @@ void Gate::admit_obstacles(std::span<const Vec2> obstacles) noexcept {
 }
 
 // What is left of the odometry, which is in the frame at the last step, is turned into the frame of the packet.
-Vec2 Gate::carried_to_now(Vec2 position, float age_s) const noexcept {
-  const float share = std::min(age_s / elapsed_s_, 1.0F);
+Vec2 Gate::carried_to_now(Vec2 position, float rounds) const noexcept {
+  const float share = std::min(rounds / elapsed_, 1.0F);
   const Vec2 shift = rotate_back(unit_vector(turn_rad_ * (1.0F - share)), moved_ * share);
   return Carry(shift, turn_rad_ * share).point(position);
 }

@@ -96,7 +96,7 @@ void take_census(TreeRobot& robot, float rest_distance, float own_want) noexcept
 
   self.subtree = saturated(sums.robots);
   self.subtree_workers = saturated(sums.workers);
-  self.count = saturated(algorithm2_count(sums.children, sums.counts, self.depth), UINT16_MAX);
+  self.count = saturated(algorithm2_count(sums.children, sums.counts, self.depth));
   self.want = sums.want;
   watch_progress(robot);
   self.pull = sums.pulling > 0 ? sums.pull / static_cast<float>(sums.pulling) : Vec2{};

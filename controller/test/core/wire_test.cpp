@@ -21,23 +21,14 @@ namespace {
 
 std::uint16_t word() { return *rc::gen::arbitrary<std::uint16_t>(); }
 bool flag() { return *rc::gen::arbitrary<bool>(); }
-// Of messages with small ones alone, and of others.
-struct Numbers {
-  bool small = flag();
-  [[nodiscard]] RobotId robot(RobotId end = nobody) const {
-    if (small) return *rc::gen::inRange<RobotId>(0, narrow_nobody);
-    return end == nobody && flag() ? nobody : *rc::gen::inRange<RobotId>(0, end);
-  }
-  [[nodiscard]] RobotCount count() const {
-    return static_cast<RobotCount>(*rc::gen::inRange<std::uint32_t>(0, small ? 0x10000 : most_robots + 1));
-  }
-};
+RobotId sender() { return *rc::gen::inRange<RobotId>(0, nobody); }
+RobotId robot() { return flag() ? nobody : sender(); }
 std::int16_t signed_word() { return *rc::gen::arbitrary<std::int16_t>(); }
 std::uint8_t byte() { return *rc::gen::arbitrary<std::uint8_t>(); }
 
-void fill(TreeMessage& m, const Numbers& draw) {
+void fill(TreeMessage& m) {
   const auto meters = [] { return static_cast<float>(*rc::gen::inRange(-1'000'000, 1'000'001)) * 0.001F; };
-  m.id = draw.robot(nobody - 1);
+  m.id = sender();
   m.role = static_cast<Role>(*rc::gen::inRange(0, 4));
   m.phase = static_cast<Phase>(*rc::gen::inRange(0, 5));
   m.need = static_cast<Need>(*rc::gen::inRange(0, 3));
@@ -46,34 +37,34 @@ void fill(TreeMessage& m, const Numbers& draw) {
     *field = word();
   for (RobotId* field :
        {&m.root.id, &m.parent, &m.old_parent, &m.flood_parent, &m.grant, &m.request, &m.inserted_child, &m.new_root})
-    *field = draw.robot();
+    *field = robot();
   for (RobotCount* field : {&m.flood_robots, &m.flood_workers, &m.subtree, &m.subtree_workers, &m.count})
-    *field = draw.count();
+    *field = word();
   for (std::int16_t* field : {&m.pull_x, &m.pull_y, &m.centroid_x_cm, &m.centroid_y_cm}) *field = signed_word();
   m.tree_hops = byte();
   m.call_hops = byte();
   for (float* field : {&m.q_x_m, &m.q_y_m}) *field = meters();
 }
-void fill(HealingMessage& m, const Numbers& draw) {
-  fill(static_cast<TreeMessage&>(m), draw);
+void fill(HealingMessage& m) {
+  fill(static_cast<TreeMessage&>(m));
   m.root_told = flag();
-  for (RobotId* field : {&m.serves, &m.told, &m.task_serves, &m.task_holder}) *field = draw.robot();
+  for (RobotId* field : {&m.serves, &m.told, &m.task_serves, &m.task_holder}) *field = robot();
   for (std::uint16_t* field : {&m.heartbeat, &m.task_beat}) *field = word();
-  m.root_size = draw.count();
+  m.root_size = word();
   for (std::int16_t* field : {&m.root_x_cm, &m.root_y_cm, &m.task_x_cm, &m.task_y_cm}) *field = signed_word();
 }
-void fill(ConvoyMessage& m, const Numbers& draw) {
-  fill(static_cast<HealingMessage&>(m), draw);
+void fill(ConvoyMessage& m) {
+  fill(static_cast<HealingMessage&>(m));
   m.pinned = flag();
   m.hinge_x_cm = signed_word();
   m.hinge_y_cm = signed_word();
   m.child_count = byte();
-  for (RobotId* field : {&m.below, &m.warned, &m.above, &m.task_host}) *field = draw.robot();
+  for (RobotId* field : {&m.below, &m.warned, &m.above, &m.task_host}) *field = robot();
 }
 
 template <class Message> Message arbitrary_message() {
   Message m;
-  fill(m, Numbers());
+  fill(m);
   return m;
 }
 
@@ -103,7 +94,7 @@ TYPED_TEST(Wire, WhatIsWrittenIsAsLongAsItsType) {
   const bool holds = rc::check([] {
     std::vector<std::uint8_t> bytes(largest_wire + 8, 0xAA);
     const auto m = arbitrary_message<TypeParam>();
-    const std::size_t size = wire_size<TypeParam>(wire::needs_wide_ids(m) ? wire::wide : wire::narrow);
+    constexpr std::size_t size = wire_size<TypeParam>();
     RC_ASSERT(encode_fields(m, bytes) == size);
     RC_ASSERT(std::all_of(bytes.begin() + static_cast<std::ptrdiff_t>(size), bytes.end(),
                           [](std::uint8_t b) { return b == 0xAA; }));
@@ -219,56 +210,15 @@ TEST(WireBlocks, EachIsToldByItsHeader) {
   EXPECT_FALSE(decode_fields<ConvoyMessage>(healing).has_value());
 }
 
-// ---- Ids of more than 16 bits ----
+// ---- Ids and counts ----
 
-TEST(WireSize, WithWideIdsTheLongestHasTwoBytesMoreForEachIdAndCount) {
-  EXPECT_EQ(wire_size<TreeMessage>(wire::wide), 89U);
-  EXPECT_EQ(wire_size<HealingMessage>(wire::wide), 121U);
-  EXPECT_EQ(wire_size<ConvoyMessage>(wire::wide), 142U);
-  EXPECT_EQ(wire_size<PoweredConvoyMessage>(wire::wide), 154U);
-  EXPECT_LE(longest_wire<PoweredConvoyMessage>, largest_wire);
-}
-
-TYPED_TEST(Wire, WhatSixteenBitsCanSayTakesSixteen) {
-  auto m = of_robot<TypeParam>(0xFFFE);  // the largest; all other ids are nobody
+TYPED_TEST(Wire, TheLargestIdAndCountSurviveTheWay) {
+  auto m = of_robot<TypeParam>(0xFFFE);  // 0xFFFF is nobody
   m.subtree = 0xFFFF;
-  EXPECT_EQ(encoded(m).size(), wire_size<TypeParam>());
-  EXPECT_EQ(encoded(m)[0], header_of<TypeParam>());
   EXPECT_EQ(over_the_wire(m), m);
 }
 
-TYPED_TEST(Wire, OneIdOrCountMoreMakesAllOfItWide) {
-  if constexpr (!has_wide_ids) GTEST_SKIP() << "this build has ids of 16 bits";
-  auto parent = of_robot<TypeParam>(7);
-  parent.parent = static_cast<RobotId>(0xFFFFU);  // some robot's
-  auto many = of_robot<TypeParam>(7);
-  many.subtree = static_cast<RobotCount>(0x10000U);
-  for (const TypeParam& m : {of_robot<TypeParam>(static_cast<RobotId>(70'000U)), parent, many}) {
-    const auto bytes = encoded(m);
-    EXPECT_EQ(bytes.size(), wire_size<TypeParam>(wire::wide));
-    EXPECT_EQ(bytes[0], header_of<TypeParam>() | block::wide_ids);
-    EXPECT_EQ(over_the_wire(m), m);
-  }
-}
-
-// A build with 16 bits refuses every wide message; one with 32 those that need not be wide, or count too many robots.
-TYPED_TEST(Wire, WideMessagesThatNobodyWritesAreRefused) {
-  std::vector<std::uint8_t> bytes(wire_size<TypeParam>(wire::wide));
-  const auto accepts = [&](const TypeParam& m) {
-    wire::write<wire::wide>(m, bytes);
-    return decode_fields<TypeParam>(bytes).has_value();
-  };
-  EXPECT_FALSE(accepts(of_robot<TypeParam>(7)));
-  EXPECT_FALSE(accepts(of_robot<TypeParam>(nobody)));
-  auto m = of_robot<TypeParam>(static_cast<RobotId>(70'000U));
-  EXPECT_EQ(accepts(m), has_wide_ids);
-  m.subtree = static_cast<RobotCount>(most_robots);
-  EXPECT_EQ(accepts(m), has_wide_ids);
-  m.subtree = static_cast<RobotCount>(most_robots + 1);
-  EXPECT_FALSE(accepts(m) && has_wide_ids);
-}
-
-TEST(RobotIds, HashAsTheSameInBuildsOfBothWidths) {
+TEST(RobotIds, HashAsNumbersOfAnyWidth) {
   const auto of = [](auto value) {
     Digest digest;
     digest.add(value);
@@ -276,13 +226,6 @@ TEST(RobotIds, HashAsTheSameInBuildsOfBothWidths) {
   };
   EXPECT_EQ(of(nobody), of(std::uint64_t{0xFFFF}));
   EXPECT_EQ(of(RobotId{7}), of(std::uint64_t{7}));
-}
-
-TEST(RobotIds, OfSixteenBitsAreNobodysWhereTheyWouldBeTruncated) {
-  EXPECT_EQ(to_narrow(nobody), narrow_nobody);
-  EXPECT_EQ(from_narrow(narrow_nobody), nobody);
-  EXPECT_EQ(from_narrow(to_narrow(65'534)), 65'534);
-  EXPECT_EQ(to_narrow(static_cast<RobotId>(has_wide_ids ? 70'000U : narrow_nobody)), narrow_nobody);
 }
 
 }  // namespace

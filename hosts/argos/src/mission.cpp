@@ -70,7 +70,6 @@ std::vector<std::string> not_in_argos(const world::Scenario& scenario) {
   const world::RobotModel& robot = scenario.robot;
   const double rate = 1.0 / scenario.tick_s;
   refuse(std::abs(rate - std::round(rate)) > 1e-9, "tick_s: ARGoS has whole ticks per second");
-  refuse(world::robot_count(scenario) > most_narrow_robots, "swarm.robots: robots in ARGoS have ids of 16 bits");
   refuse(scenario.seed == 0 || scenario.seed > 0xFFFFFFFFU, "seed: ARGoS' is from 1 to 4294967295; 0 is its clock");
   refuse(scenario.clocks.asynchronous, "clocks.asynchronous: in ARGoS all robots step at once");
   refuse(scenario.battery.on(), "battery: our robots in ARGoS do not measure their charge");

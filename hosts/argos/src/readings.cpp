@@ -87,9 +87,9 @@ std::optional<Vec2> light_at(std::span<const LightReading> ring, double intensit
 std::optional<RobotId> id_of(std::string_view name) noexcept {
   std::size_t begin = name.size();
   while (begin > 0 && name[begin - 1] >= '0' && name[begin - 1] <= '9') --begin;
-  std::uint16_t id = narrow_nobody;
+  RobotId id = nobody;
   const auto [end, error] = std::from_chars(name.data() + begin, name.data() + name.size(), id);
-  if (error != std::errc() || end != name.data() + name.size() || id == narrow_nobody) return std::nullopt;
+  if (error != std::errc() || end != name.data() + name.size() || id == nobody) return std::nullopt;
   return id;
 }
 

@@ -8,14 +8,13 @@ namespace banyan::argos {
 namespace {
 
 constexpr int remembered_steps = 10;               // at 30 % loss, ten packets in a row get lost once in 170,000 times
-constexpr float radius_per_wheel_distance = 0.7F;  // Khepera IV 0.668, foot-bot 0.607
 
 }  // namespace
 
 ArgosRobot::ArgosRobot(const Algorithm& algorithm, const Setup& setup, const Member& member, bool has_eyes)
     : swarm_(algorithm.make(setup, std::array{member})),
       has_eyes_(has_eyes),
-      radius_m_(radius_per_wheel_distance * setup.platform.wheel_distance_m),
+      radius_m_(setup.platform.body_radius_m),
       step_m_(setup.platform.wheel_limit_m_s * setup.platform.tick_s),
       report_(swarm_->report(0)),
       message_(swarm_->message_bytes()) {}

@@ -48,7 +48,7 @@ class Scenario:
     source      a TOML or JSON file (also the run.json of an earlier run), a dict of its keys, or another Scenario
     algorithm   one of banyan.algorithms, instead of the file's
     seed        instead of the file's
-    parameters  of the algorithm, as a dict: {"spare_distance_m": 0.4}
+    parameters  of the algorithm, as a dict: {"target_gain": 0.4}
     set         any other keys: {"radio.loss": 0.3, "targets.count": 4}
     with_files  files of keys that are laid over, such as tuned parameters
     controller  a controller of your own instead of an algorithm

@@ -26,8 +26,7 @@ class World(_core.World):
 
     positions*, headings*  (N, 2) float64, m; unit vectors
     roles*                 (N,) uint8: spare 0, connector 1, worker 2, root 3
-    parents*, old_parents*, serves*, roots*  (N,) int16, -1: nobody (uint16 above 32,767 robots;
-                                            int32 in a build with wide ids)
+    parents*, old_parents*, serves*, roots*  (N,) int16, -1: nobody (uint16 above 32,767 robots)
     alive*                 (N,) bool
     links                  (L, 2) int32: pairs i < j that hear each other
     targets                (T, 2) float64, m
@@ -104,7 +103,7 @@ class World(_core.World):
     @property
     def edges(self) -> np.ndarray:
         """(E, 2): each robot that has a parent, and the parent."""
-        children = np.flatnonzero(self.parents != (65535 if self.parents.dtype == np.uint16 else -1))
+        children = np.flatnonzero(self.parents != (-1 if self.parents.dtype == np.int16 else 65535))
         return np.stack([children, self.parents[children]], axis=-1)
 
     def film(self, path: str | os.PathLike[str], *, until_s: float | None = None, **look: Any) -> str:

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <stdexcept>
 
 namespace banyan::python {
 namespace {
@@ -297,8 +296,6 @@ std::string OutsideAlgorithm::fault(const Setup& setup) const {
 }
 
 std::unique_ptr<Swarm> OutsideAlgorithm::make(const Setup& setup, std::span<const Member> members) const {
-  if (members.size() > most_narrow_robots)
-    throw std::invalid_argument("swarm.robots: robots that Python decides for have ids of 16 bits");
   auto block = outside_.block ? outside_.block
                               : std::make_shared<Block>(Shape{members.size(), outside_.neighbours, outside_.payload});
   auto mind = outside_.mind ? outside_.mind(setup, members, block) : nullptr;

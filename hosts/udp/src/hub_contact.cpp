@@ -9,9 +9,7 @@ constexpr double hello_every_s = 0.2;
 class HubContact final : public Contact {
  public:
   explicit HubContact(const ContactEnds& ends)
-      : ends_(ends),
-        hub_(parse_address(ends.options.hub)),
-        channel_(to_narrow(ends.options.id), hub_node, new_boot()) {}
+      : ends_(ends), hub_(parse_address(ends.options.hub)), channel_(ends.options.id, hub_node, new_boot()) {}
 
   bool take(const Envelope& envelope, const Address& /*from*/, double now_s) override {
     if (channel_.admit(envelope)) return false;

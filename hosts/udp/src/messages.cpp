@@ -11,10 +11,6 @@ float within_half_turn(float turn_rad) noexcept {
   return angle_of(direction);
 }
 
-// In datagrams ids have 16 bits in every build: a fleet has no more robots (most_fleet_robots).
-void put_id(DatagramWriter& out, RobotId id) { out.put(to_narrow(id)); }
-RobotId take_id(DatagramReader& in) noexcept { return from_narrow(in.take<std::uint16_t>()); }
-
 void put(DatagramWriter& out, Vec2 v) {
   out.put(v.x);
   out.put(v.y);
@@ -53,11 +49,12 @@ void put(DatagramWriter& out, const Report& r) {
   out.put(static_cast<std::uint8_t>(r.phase));
   out.put(static_cast<std::uint8_t>(r.need));
   out.put(static_cast<std::uint8_t>(r.spare_state));
-  for (const RobotId id : {r.parent, r.old_parent, r.serves, r.root, r.grant, r.request}) put_id(out, id);
-  for (const RobotId id : r.kept) put_id(out, id);
+  for (const RobotId id : {r.parent, r.old_parent, r.serves, r.root, r.grant, r.request}) out.put(id);
+  for (const RobotId id : r.kept) out.put(id);
   for (const std::uint16_t number : {r.root_sequence, r.epoch, r.depth}) out.put(number);
-  out.put(r.label_cm);
-  out.put(r.want_m);
+  out.put(r.label);
+  out.put(r.want);
+  out.put(std::uint8_t{r.out_of_scale});
   const Tally& t = r.tally;
   for (const std::uint32_t n : {t.insertions, t.handovers, t.repairs, t.elections, t.replacements, t.rejected})
     out.put(n);
@@ -75,11 +72,14 @@ std::optional<Report> take_report(DatagramReader& in) noexcept {
   sound = take_choice(in, r.phase, Phase::select_root) && sound;
   sound = take_choice(in, r.need, Need::await) && sound;
   sound = take_choice(in, r.spare_state, SpareState::adjust_position) && sound;
-  for (RobotId* id : {&r.parent, &r.old_parent, &r.serves, &r.root, &r.grant, &r.request}) *id = take_id(in);
-  for (RobotId& id : r.kept) id = take_id(in);
+  for (RobotId* id : {&r.parent, &r.old_parent, &r.serves, &r.root, &r.grant, &r.request}) *id = in.take<RobotId>();
+  for (RobotId& id : r.kept) id = in.take<RobotId>();
   for (std::uint16_t* number : {&r.root_sequence, &r.epoch, &r.depth}) *number = in.take<std::uint16_t>();
-  r.label_cm = in.take<std::int32_t>();
-  r.want_m = in.take_float();
+  r.label = in.take_float();
+  r.want = in.take_float();
+  const auto out_of_scale = in.take<std::uint8_t>();
+  sound = sound && out_of_scale <= 1;
+  r.out_of_scale = out_of_scale == 1;
   Tally& t = r.tally;
   for (std::uint32_t* n : {&t.insertions, &t.handovers, &t.repairs, &t.elections, &t.replacements, &t.rejected})
     *n = in.take<std::uint32_t>();
@@ -117,7 +117,7 @@ Bytes encode(const SensorFrame& frame) {
   out.put(flags_of(frame));
   put(out, frame.odometry);
   put(out, frame.target);
-  put_id(out, frame.given_up);
+  out.put(frame.given_up);
   out.put(frame.given_up_serial);
   out.put(static_cast<std::uint8_t>(frame.obstacles.size()));
   for (const Vec2 point : frame.obstacles) put(out, point);
@@ -137,7 +137,7 @@ std::optional<SensorFrame> decode_frame(ByteView bytes) {
   }
   frame.odometry = take_pose(in);
   frame.target = take_point(in);
-  frame.given_up = take_id(in);
+  frame.given_up = in.take<RobotId>();
   frame.given_up_serial = in.take<std::uint8_t>();
   const auto count = in.take<std::uint8_t>();
   if (count > most_seen) return std::nullopt;
@@ -153,7 +153,7 @@ Bytes encode(const HeardBundle& heard) {
   put(out, heard.odometry);
   out.put(static_cast<std::uint8_t>(heard.packets.size()));
   for (const Hearing& packet : heard.packets) {
-    put_id(out, packet.sender);
+    out.put(packet.sender);
     put(out, packet.position);
     put_message(out, packet.message);
   }
@@ -168,7 +168,7 @@ std::optional<HeardBundle> decode_heard(ByteView bytes) {
   const auto count = in.take<std::uint8_t>();
   for (int k = 0; k < count && in.ok(); ++k) {
     Hearing packet;
-    packet.sender = take_id(in);
+    packet.sender = in.take<RobotId>();
     packet.position = take_point(in);
     auto message = take_message(in);
     if (!message) return std::nullopt;
@@ -223,7 +223,7 @@ Bytes encode(const Account& account) {
   const std::size_t count = std::min(account.seen.size(), most_sightings);
   out.put(static_cast<std::uint8_t>(count));
   for (const Sighting& sighting : std::span(account.seen).first(count)) {
-    put_id(out, sighting.robot);
+    out.put(sighting.robot);
     put(out, sighting.position);
   }
   const Bytes status = encode(account.status);
@@ -242,7 +242,7 @@ std::optional<Account> decode_account(ByteView bytes) {
   const auto count = in.take<std::uint8_t>();
   if (count > most_sightings) return std::nullopt;
   for (int k = 0; k < count && in.ok(); ++k) {
-    const RobotId robot = take_id(in);
+    const RobotId robot = in.take<RobotId>();
     account.seen.push_back({robot, take_point(in)});
   }
   if (!in.ok() || !is_sound(account.odometry)) return std::nullopt;

@@ -16,7 +16,7 @@ constexpr double measured_lately_s = 0.3;  // older ones, and their senders, may
 class PeerContact final : public Contact {
  public:
   explicit PeerContact(const ContactEnds& ends)
-      : ends_(ends), addresses_(parse_addresses(ends.options.peers)), peers_(to_narrow(ends.options.id), new_boot()) {
+      : ends_(ends), addresses_(parse_addresses(ends.options.peers)), peers_(ends.options.id, new_boot()) {
     if (!ends.options.tell.empty()) listener_ = parse_address(ends.options.tell);
   }
 

@@ -18,8 +18,8 @@ constexpr float place_tolerance_m = 0.1F;
 
 }  // namespace
 
-UdpRobot::UdpRobot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s, float radius_m)
-    : algorithm_(algorithm), setup_(std::move(setup)), id_(id), stop_after_s_(stop_after_s), radius_m_(radius_m) {}
+UdpRobot::UdpRobot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s)
+    : algorithm_(algorithm), setup_(std::move(setup)), id_(id), stop_after_s_(stop_after_s) {}
 
 // A robot that has started again in the middle of a mission is not its first root.
 void UdpRobot::begin(const SensorFrame& frame) {
@@ -86,7 +86,7 @@ std::span<const Vec2> UdpRobot::without_neighbors(const OdometricPose& pose, std
   for (const auto& [sender, known] : known_)
     if (now_s - known.given_s <= heard_for_s) neighbors_.push_back(pose.inside(known.position));
   seen_.assign(seen.begin(), seen.end());
-  return without_robots(seen_, neighbors_, radius_m_, place_tolerance_m);
+  return without_robots(seen_, neighbors_, setup_.platform.body_radius_m, place_tolerance_m);
 }
 
 Senses UdpRobot::sense(const OdometricPose& pose, std::span<const Vec2> seen, double now_s) {

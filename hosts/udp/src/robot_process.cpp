@@ -48,7 +48,7 @@ class Process {
         socket_(options.listen.empty() ? Address{} : parse_address(options.listen)),
         driver_(options.base.empty() ? std::unique_ptr<Driver>(std::make_unique<SimulatedWheels>())
                                      : open_line_base(options.base)),
-        robot_(algorithm, options.setup, options.id, options.stop_after_s, static_cast<float>(options.radius_m)),
+        robot_(algorithm, options.setup, options.id, options.stop_after_s),
         contact_(make_contact({options_, socket_, *driver_, robot_, keys_.keys()})),
         clock_(options.speed),
         next_step_s_(clock_.now_s()) {}

@@ -45,8 +45,9 @@ Status some_status() {
   r.parent = 1, r.old_parent = 2, r.serves = 3, r.root = 4, r.grant = 5, r.request = 6;
   for (std::size_t k = 0; k < r.kept.size(); ++k) r.kept[k] = static_cast<RobotId>(10 + k);
   r.root_sequence = 11, r.epoch = 12, r.depth = 13;
-  r.label_cm = -14;
-  r.want_m = 1.25F;
+  r.label = 1.75F;
+  r.want = 1.25F;
+  r.out_of_scale = true;
   r.tally = {21, 22, 23, 24, 25, 26};
   status.message = {1, 2, 3, 4};
   return status;
@@ -68,7 +69,8 @@ TEST(Messages, ComeBackAsTheyWere) {
   EXPECT_EQ(encode(*status), encode(some_status()));
   EXPECT_EQ(status->report.role, Role::worker);
   EXPECT_EQ(status->report.kept[11], 21);
-  EXPECT_EQ(status->report.label_cm, -14);
+  EXPECT_EQ(status->report.label, 1.75F);
+  EXPECT_TRUE(status->report.out_of_scale);
   EXPECT_EQ(status->report.tally.rejected, 26U);
   EXPECT_FLOAT_EQ(status->velocity.turn_rad_s, 1.5F);
   EXPECT_EQ(status->message, (Bytes{1, 2, 3, 4}));

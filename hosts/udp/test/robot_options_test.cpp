@@ -28,7 +28,7 @@ TEST(RobotOptions, WhatIsWrittenIsReadAgain) {
                                "--scale", "0.7", "--range", "1.7", "--tick", "0.05", "--wheel-limit", "0.13",
                                "--wheel-distance", "0.3", "--radius", "0.09", "--arrival", "0.1",
                                "--link-redundancy", "2", "--holonomic", "--no-line-of-sight", "--set",
-                               "safe_range_m=1.4", "--set", "x=0.1", "--stop-after", "0.7", "--delay", "0.02",
+                               "safe_range=0.7", "--set", "x=0.1", "--stop-after", "0.7", "--delay", "0.02",
                                "--speed", "5"});
   // clang-format on
   const RobotOptions options = parse_robot_options(arguments);

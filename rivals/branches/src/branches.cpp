@@ -52,14 +52,14 @@ Output<Message> step(const Params& params, State& state, const Inputs<Heard>& in
 
   Robot robot{params, state, inputs.elapsed_ticks()};
   take_part(robot);
-  watch_links(robot, Carry(inputs.senses().odometry));
+  watch_links(robot, inputs.carry());
   change_links(robot);
   join(robot);
   follow_team(robot);
 
   Guard guard;
   guard_links(robot, guard);
-  const Vec2 u = spacing_motion(robot) + avoidance(state.neighbors, inputs.senses().obstacles, params);
+  const Vec2 u = spacing_motion(robot) + avoidance(state.neighbors, inputs.obstacles(), params);
   return {composed(state), move(u, guard, params)};
 }
 

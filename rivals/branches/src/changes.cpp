@@ -43,9 +43,9 @@ bool is_leaf(const Message& m) noexcept { return m.links[1] == nobody && m.root 
 struct Choice {
   int leaves = -1;
   int joins = -1;
-  float saves_m = 0.0F;
-  void consider(int a, int b, float saved_m) noexcept {
-    if (saved_m > saves_m) *this = {a, b, saved_m};
+  float saves = 0.0F;
+  void consider(int a, int b, float saved) noexcept {
+    if (saved > saves) *this = {a, b, saved};
   }
 };
 
@@ -54,12 +54,12 @@ Choice grow(const Robot& robot, const View& view) noexcept {
   const Table<Message>& table = robot.table();
   for (int l = 0; l < view.leaders; ++l) {
     const int leader = view.at[static_cast<std::size_t>(l)];
-    if (!(table.range(leader) > robot.params.separation_m) || !is_free(table.message(leader))) continue;
+    if (!(table.range(leader) > robot.params.separation) || !is_free(table.message(leader))) continue;
     int nearest = -1;
     for (int k = 0; k < table.size(); ++k) {
       const Message& m = table.message(k);
       const bool serves = is_follower(m) && m.team == table.id(leader) && table.age(k) == 0 && is_free(m);
-      if (!serves || table.range(k) < robot.params.separation_m || table.range(k) > robot.reach_m()) continue;
+      if (!serves || table.range(k) < robot.params.separation || table.range(k) > robot.reach()) continue;
       if (robot.between(k, leader) > table.range(leader)) continue;
       if (nearest < 0 || table.range(k) < table.range(nearest)) nearest = k;
     }
@@ -88,7 +88,7 @@ Choice shorten(const Robot& robot, const View& view) noexcept {
 Choice withdraw(const Robot& robot, const View& view) noexcept {
   const bool is_tail = view.leaders == 1 && view.connectors == 1 && !robot.self.is_root();
   if (!is_tail || !has_room(robot.table().message(view.at[1]))) return {};
-  return robot.between(view.at[0], view.at[1]) < robot.params.joining_m ? Choice{view.at[0], view.at[1], 1.0F}
+  return robot.between(view.at[0], view.at[1]) < robot.params.joining ? Choice{view.at[0], view.at[1], 1.0F}
                                                                         : Choice{};
 }
 
@@ -98,8 +98,8 @@ Choice hand_over(const Robot& robot, const View& view) noexcept {
   for (int i = 0; i < view.size(); ++i)
     for (int j = view.leaders; j < view.size(); ++j) {
       const int a = view.at[static_cast<std::size_t>(i)], b = view.at[static_cast<std::size_t>(j)];
-      if (a == b || !has_room(robot.table().message(b)) || robot.between(a, b) > robot.reach_m()) continue;
-      best.consider(a, b, 2.0F * robot.reach_m() - robot.between(a, b));
+      if (a == b || !has_room(robot.table().message(b)) || robot.between(a, b) > robot.reach()) continue;
+      best.consider(a, b, 2.0F * robot.reach() - robot.between(a, b));
     }
   return best;
 }
@@ -136,7 +136,7 @@ void give_up(State& self) noexcept {
 
 // After a failure not all the same: two that are in each other's changes wait for each other.
 int pause_ticks(const Robot& robot) noexcept {
-  const int pause = robot.params.ticks(robot.params.change_pause_s);
+  const int pause = whole(robot.params.pause_rounds);
   return robot.self.change.stage == undone ? pause + robot.self.id % uneven_ticks : pause;
 }
 
@@ -154,7 +154,7 @@ void follow_offer(Robot& robot) noexcept {
     if (self.parent == change.leaves) self.parent = nobody;
     return enter(change, made);
   }
-  if (change.ticks > robot.params.ticks(robot.params.change_timeout_s)) give_up(self);
+  if (change.ticks > whole(robot.params.change_rounds)) give_up(self);
 }
 
 bool is_held(const Robot& robot, RobotId id) noexcept {
@@ -168,7 +168,7 @@ void accept(Robot& robot, const Message& m) noexcept {
   const bool leaves = m.leaves == self.id;
   const RobotId other = leaves ? m.joins : m.leaves;
   const int k = robot.table().find(other);
-  if (k < 0 || robot.table().range(k) > robot.reach_m()) return;
+  if (k < 0 || robot.table().range(k) > robot.reach()) return;
   const bool recruited = !leaves && self.is_follower();
   const bool linked = self.links.has(m.id) && lists(m.links, self.id);
   if (!recruited && (!linked || self.links.full() || (!leaves && self.is_leader()))) return;

@@ -23,7 +23,7 @@ int find_way_in(const Robot& robot) noexcept {
     const Message& m = table.message(k);
     const bool joined = m.connector && news_age(m.joined_age, table, k) != unknown_age;
     if (!joined || !has_room(m) || m.id == robot.self.ignored || robot.self.links.has(m.id)) continue;
-    if (table.range(k) > robot.reach_m()) continue;
+    if (table.range(k) > robot.reach()) continue;
     if (nearest < 0 || table.range(k) < table.range(nearest)) nearest = k;
   }
   return nearest;
@@ -37,7 +37,7 @@ int find_helper(const Robot& robot) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     const Message& m = table.message(k);
     if (!is_follower(m) || m.root == nobody || m.id == robot.self.ignored || table.age(k) > 0) continue;
-    if (table.range(k) > robot.params.spacing_m) continue;
+    if (table.range(k) > robot.params.spacing) continue;
     const int age = age_now(m.root_age, table, k);
     if (best >= 0 && (age > best_age || (age == best_age && table.range(k) < table.range(best)))) continue;
     best = k;
@@ -72,9 +72,9 @@ void call(Robot& robot) noexcept {
   }
   if (self.calls != nobody) {
     self.calls_ticks = robot.counted(self.calls_ticks);
-    if (self.calls_ticks <= robot.params.ticks(robot.params.change_timeout_s)) return;
+    if (self.calls_ticks <= whole(robot.params.change_rounds)) return;
     self.ignored = self.calls;
-    self.ignored_ticks = static_cast<std::uint16_t>(robot.params.ticks(robot.params.transfer_interval_s));
+    self.ignored_ticks = static_cast<std::uint16_t>(whole(robot.params.transfer_rounds));
     self.calls = nobody;
   }
   if (self.links.full() || is_led(robot)) return;
@@ -107,7 +107,7 @@ void let_in(Robot& robot) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     const Message& m = table.message(k);
     const bool asks = table.age(k) == 0 && lists(m.links, self.id) && !self.links.has(m.id);
-    if (!asks || m.joined_age <= news_ticks || table.range(k) > robot.reach_m()) continue;
+    if (!asks || m.joined_age <= news_ticks || table.range(k) > robot.reach()) continue;
     self.forget();
     self.links.add(m.id);
   }
@@ -132,8 +132,8 @@ void leave(Robot& robot) noexcept {
   const bool is_leaf = self.links.size() <= 1 && !self.is_busy() && !self.is_root() && !self.has_lost_child();
   self.leaf_ticks = is_leaf ? robot.counted(self.leaf_ticks) : std::uint16_t{0};
   const bool is_idle = self.is_joined() || self.links.size() == 0;
-  const float patience_s = is_idle ? robot.params.change_timeout_s : robot.params.join_patience_s;
-  if (self.leaf_ticks > robot.params.ticks(patience_s)) become_follower(self);
+  const int patience_ticks = is_idle ? whole(robot.params.change_rounds) : robot.params.rounds(robot.params.join_patience_drives);
+  if (self.leaf_ticks > patience_ticks) become_follower(self);
 }
 
 }  // namespace
@@ -142,7 +142,7 @@ void join(Robot& robot) noexcept {
   State& self = robot.self;
   self.root_ticks = self.is_root() ? robot.counted(self.root_ticks) : std::uint16_t{0};
   // Where a root is missing many call themselves so, and soon only one of them.
-  const bool is_lasting_root = self.root_ticks > robot.params.ticks(robot.params.change_timeout_s);
+  const bool is_lasting_root = self.root_ticks > whole(robot.params.change_rounds);
   if (self.is_leader()) self.connector = false;
   else if (is_lasting_root || self.links.size() > 0) self.connector = true;
   if (self.is_follower()) return answer(robot);

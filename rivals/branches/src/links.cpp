@@ -45,10 +45,10 @@ void forget_lost(Robot& robot) noexcept {
   self.lost_ticks = robot.counted(self.lost_ticks);
   const bool rejoined = self.is_joined() && self.root == self.lost_root;
   // For all who were linked with it.
-  const bool gone = self.lost_ticks > robot.params.ticks(robot.params.liveness_period_s);
+  const bool gone = self.lost_ticks > whole(robot.params.liveness_rounds);
   const bool lives = robot.said_by(self.lost) != nullptr || (gone && is_named(robot, self.lost));
-  const bool there = norm(self.lost_at) < robot.params.arrival_distance_m;
-  const bool waited = !self.has_lost_parent() && self.lost_ticks > robot.params.ticks(robot.params.join_patience_s);
+  const bool there = norm(self.lost_at) < robot.params.arrival_distance;
+  const bool waited = !self.has_lost_parent() && self.lost_ticks > robot.params.rounds(robot.params.join_patience_drives);
   if (rejoined || lives || there || waited) self.forget();
 }
 
@@ -66,7 +66,7 @@ bool has_ended(const Robot& robot, Link& link) noexcept {
   link.unanswered_ticks = answered ? std::uint16_t{0} : robot.counted(link.unanswered_ticks);
   const bool leads = link.to == self.parent || m->parent == self.id || !self.is_joined();
   link.loop_ticks = leads ? std::uint16_t{0} : robot.counted(link.loop_ticks);
-  const int timeout = robot.params.ticks(robot.params.change_timeout_s);
+  const int timeout = whole(robot.params.change_rounds);
   return link.unanswered_ticks > timeout || link.loop_ticks > 2 * timeout;
 }
 

@@ -24,7 +24,7 @@ struct Robot {
     return distance(table().position(a), table().position(b));
   }
   // How far apart two robots may be that are to be linked: no farther than the guard will hold them.
-  [[nodiscard]] float reach_m() const noexcept { return params.longest_link_m - table().spread_m(); }
+  [[nodiscard]] float reach() const noexcept { return params.longest_link - table().spread(); }
   [[nodiscard]] std::uint16_t counted(std::uint16_t ticks) const noexcept {
     return static_cast<std::uint16_t>(std::min(ticks + elapsed_ticks, 65535));
   }

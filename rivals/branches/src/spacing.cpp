@@ -20,8 +20,7 @@ class Spacing {
   explicit Spacing(const Robot& robot)
       : robot_(robot),
         self_(robot.self),
-        table_(robot.table()),
-        per_range_(1.0F / robot.params.communication_range_m) {}
+        table_(robot.table()) {}
 
   [[nodiscard]] Vec2 follower() const noexcept {
     const Vec2 u = clamped(attraction(), 1.0F) * followers_attraction +
@@ -44,17 +43,17 @@ class Spacing {
       if (nearest < 0 || table_.range(k) < table_.range(nearest)) nearest = k;
     }
     if (nearest >= 0 && self_.is_cut(robot_.params))
-      return table_.range(nearest) > robot_.reach_m() ? unit(table_.position(nearest)) : Vec2{};
+      return table_.range(nearest) > robot_.reach() ? unit(table_.position(nearest)) : Vec2{};
     if (self_.has_lost_parent()) return unit(self_.lost_at);
     return self_.is_leader() ? Vec2{} : connector();
   }
 
  private:
-  [[nodiscard]] Vec2 at(int k) const noexcept { return table_.position(k) * per_range_; }
+  [[nodiscard]] Vec2 at(int k) const noexcept { return table_.position(k); }
 
   // (5), mean over the robots that are `of`
   template <class Of> [[nodiscard]] Vec2 push(const Of& of) const noexcept {
-    const float flock = robot_.params.flock_m * per_range_;
+    const float flock = robot_.params.flock;
     Vec2 sum;
     int count = 0;
     for (int k = 0; k < table_.size(); ++k) {
@@ -102,7 +101,7 @@ class Spacing {
 
   // (6)
   [[nodiscard]] Vec2 pull_of_links() const noexcept {
-    const float spacing = robot_.params.spacing_m * per_range_;
+    const float spacing = robot_.params.spacing;
     Vec2 sum;
     for (std::size_t i = 0; i < self_.links.size(); ++i) {
       const int k = table_.find(self_.links[i].to);
@@ -116,7 +115,7 @@ class Spacing {
   // (7)
   [[nodiscard]] Vec2 pull_of_team() const noexcept {
     if (self_.links.size() > 2) return {};
-    const float spacing = robot_.params.spacing_m * per_range_;
+    const float spacing = robot_.params.spacing;
     Vec2 sum;
     float farthest = 0.0F;
     int leaders = 0;
@@ -156,7 +155,7 @@ Vec2 spacing_motion(const Robot& robot) noexcept {
 void guard_links(const Robot& robot, Guard& guard) noexcept {
   for (std::size_t i = 0; i < robot.self.links.size(); ++i)
     if (const int k = robot.table().find(robot.self.links[i].to); k >= 0)
-      guard.add(robot.table().position(k), robot.reach_m(), robot.params.guard_rate_per_s);
+      guard.add(robot.table().position(k), robot.reach(), robot.params.guard_rate);
 }
 
 }  // namespace banyan::rivals::branches

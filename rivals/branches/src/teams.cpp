@@ -24,8 +24,8 @@ int missing(const Robot& robot) noexcept {
   const State& self = robot.self;
   const int tail = robot.table().find(self.parent);
   if (tail < 0 || !self.assignment.known) return 0;
-  const float way_m = self.assignment.distance_m() + robot.table().range(tail);
-  const float links = std::min(std::ceil(way_m / robot.params.spacing_m), most_needed);
+  const float way = self.assignment.away() + robot.table().range(tail);
+  const float links = std::min(std::ceil(way / robot.params.spacing), most_needed);
   return static_cast<int>(links) - 1 - count_followers(robot);
 }
 
@@ -64,8 +64,8 @@ void send(Robot& robot) noexcept {
   const Table<Message>& table = robot.table();
   self.sends_ticks = robot.counted(self.sends_ticks);
   const bool may = self.needed > 0 && self.needy != self.id && missing(robot) < 0;
-  if (self.sends_ticks > robot.params.ticks(robot.params.change_timeout_s) || !may) self.sends = nobody;
-  if (!may || self.sends_ticks <= robot.params.ticks(robot.params.transfer_interval_s)) return;
+  if (self.sends_ticks > whole(robot.params.change_rounds) || !may) self.sends = nobody;
+  if (!may || self.sends_ticks <= whole(robot.params.transfer_rounds)) return;
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
     const Message& m = table.message(k);

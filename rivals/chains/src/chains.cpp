@@ -21,7 +21,7 @@ void remember(State& self, const Carry& carry) noexcept {
   if (k >= 0 && self.neighbors.age(k) == 0) self.base.put(self.neighbors.position(k));
 }
 
-std::uint16_t to_cm(float m) noexcept { return to_fixed<std::uint16_t>(m, per_cm); }
+std::uint16_t to_steps(float length) noexcept { return to_fixed<std::uint16_t>(length, per_range); }
 
 Message composed(const State& s) noexcept {
   Message m{.id = s.id,
@@ -31,8 +31,8 @@ Message composed(const State& s) noexcept {
             .above = s.chains[0].above,
             .below = s.below,
             .links = s.links,
-            .beyond_cm = to_cm(s.beyond_m),
-            .path_cm = to_cm(s.path_m),
+            .beyond = to_steps(s.beyond),
+            .path = to_steps(s.path),
             .root = s.root,
             .root_age = s.root_age};
   if (s.chains[0].parent == nobody) m.above = no_ids();
@@ -50,15 +50,15 @@ State initial_state(RobotId id, bool worker, bool root) noexcept { return state_
 Output<Message> step(const Params& params, State& state, const Inputs<Heard>& inputs) noexcept {
   begin_step(params, state, inputs, [&](RobotId id) { return is_tied_to(state, id); });
   state.follow_root(state.id, state.assignment.sent, state.neighbors, inputs.elapsed_ticks(), state.tally);
-  remember(state, Carry(inputs.senses().odometry));
+  remember(state, inputs.carry());
 
   Robot robot{params, state, inputs.elapsed_ticks()};
-  follow_chain(robot, inputs.senses().orders.given_up);
+  follow_chain(robot, inputs.orders().given_up);
   recruit(robot);
   if (state.is_base()) return {composed(state), {}};
   Guard guard;
   guard_chain(robot, guard);
-  const Vec2 u = spacing_motion(robot) + avoidance(state.neighbors, inputs.senses().obstacles, params);
+  const Vec2 u = spacing_motion(robot) + avoidance(state.neighbors, inputs.obstacles(), params);
   return {composed(state), move(u, guard, params)};
 }
 
@@ -76,7 +76,7 @@ Report report(const State& s) noexcept {
     if (r.parent == nobody) r.parent = chain.parent;
     else r.kept[kept++] = chain.parent;
   }
-  r.want_m = s.beyond_m;
+  r.want = s.beyond;
   return r;
 }
 
@@ -86,7 +86,7 @@ void add_to(Digest& digest, const State& s) noexcept {
     for (const RobotId id : ids) add(id);
   };
   add(s.id, s.assignment.sent, s.assignment.known, s.assignment.target, s.root, s.root_age, s.rootless_ticks);
-  add(s.worker, s.number, s.child, s.links, s.beyond_m, s.path_m, s.whole, s.linked);
+  add(s.worker, s.number, s.child, s.links, s.beyond, s.path, s.whole, s.linked);
   add(s.gap_ticks, s.astray_ticks, s.ignored, s.ignored_ticks);
   for (const KnownPlace& place : {s.base, s.child_place, s.gap}) add(place.known, place.at);
   add(s.outwards);

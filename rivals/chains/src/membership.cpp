@@ -25,7 +25,7 @@ void leave(State& self) noexcept {
   self.chains = {};
   self.below = no_ids();
   self.links = 0;
-  self.beyond_m = self.path_m = 0.0F;
+  self.beyond = self.path = 0.0F;
   self.whole = self.gap.known = self.child_place.known = false;
   self.linked = false;
   self.astray_ticks = self.gap_ticks = 0;
@@ -38,13 +38,13 @@ void follow_child(Robot& robot, int k) noexcept {
   self.child_place.put(robot.table().position(k));
   self.below = with_first(m.id, is_worker(m) ? no_ids() : m.below);
   self.links = static_cast<std::uint8_t>(std::min(m.links + 1, 255));
-  self.beyond_m = robot.table().range(k) + static_cast<float>(m.beyond_cm) / per_cm;
-  self.path_m = static_cast<float>(m.path_cm) / per_cm;
+  self.beyond = robot.table().range(k) + from_fixed(m.beyond);
+  self.path = from_fixed(m.path);
   self.whole = m.whole;
   self.gap.known = false;
 }
 
-bool is_within(const Robot& robot, int k, float reach_m) noexcept { return k >= 0 && robot.table().range(k) < reach_m; }
+bool is_within(const Robot& robot, int k, float reach) noexcept { return k >= 0 && robot.table().range(k) < reach; }
 
 // A free robot joins whoever asks it to, between that robot and its parent.
 void answer(Robot& robot) noexcept {
@@ -56,7 +56,7 @@ void answer(Robot& robot) noexcept {
     self.number = m.chain;
     follow_child(robot, k);
     for (const RobotId id : {m.above[is_worker(m) ? m.chain % listed : 0], self.root})
-      if (self.chains[0].parent == nobody && is_within(robot, robot.find_fresh(id), robot.params.longest_link_m))
+      if (self.chains[0].parent == nobody && is_within(robot, robot.find_fresh(id), robot.params.longest_link))
         self.chains[0].parent = id;
     ++self.tally.insertions;
     return;
@@ -74,11 +74,11 @@ void move_up(State& self, Vec2 place) noexcept {
 void close_up(Robot& robot) noexcept {
   State& self = robot.self;
   const Vec2 there = self.child_place.at;
-  const float beyond_m = std::max(self.beyond_m - norm(there), 0.0F);
+  const float beyond = std::max(self.beyond - norm(there), 0.0F);
   const float links = std::max(static_cast<float>(self.links) - 1.0F, 0.0F);
-  const float child_missing_m = std::max(beyond_m - links * robot.params.safe_distance_m, 0.0F);
-  self.outwards = unit(there) * (links > 0.0F ? (beyond_m - child_missing_m) / links : 0.0F);
-  move_up(self, there + unit(there) * child_missing_m);
+  const float child_missing = std::max(beyond - links * robot.params.safe_distance, 0.0F);
+  self.outwards = unit(there) * (links > 0.0F ? (beyond - child_missing) / links : 0.0F);
+  move_up(self, there + unit(there) * child_missing);
   self.child = nobody;
   self.whole = false;
 }
@@ -100,7 +100,7 @@ int find_child(const Robot& robot) noexcept {
 // Who has come to the place of a dead worker and finds nobody there takes over its target.
 void take_over(Robot& robot) noexcept {
   State& self = robot.self;
-  if (self.links > 0 || self.whole || norm(self.gap.at) > robot.params.arrival_distance_m) return;
+  if (self.links > 0 || self.whole || norm(self.gap.at) > robot.params.arrival_distance) return;
   self.whole = true;
   ++self.tally.replacements;
 }
@@ -121,7 +121,7 @@ void watch_child(Robot& robot) noexcept {
       self.gap.put(robot.table().position(k));
       break;
     }
-  self.beyond_m = norm(self.gap.at) + static_cast<float>(self.links) * robot.params.safe_distance_m;
+  self.beyond = norm(self.gap.at) + static_cast<float>(self.links) * robot.params.safe_distance;
   take_over(robot);
 }
 
@@ -140,7 +140,7 @@ void watch_parent(const Robot& robot, Chain& chain) noexcept {
     chain.parent = nobody;
     const auto adopt = [&](RobotId id) {
       const int k = robot.find_fresh(id);
-      if (chain.parent != nobody || !is_within(robot, k, robot.params.safe_distance_m)) return;
+      if (chain.parent != nobody || !is_within(robot, k, robot.params.safe_distance)) return;
       if (!leads_to_base(self, robot.table().message(k), number)) return;
       chain.parent = id;
       if (had) ++self.tally.repairs;
@@ -180,10 +180,10 @@ void watch_use(Robot& robot) noexcept {
   State& self = robot.self;
   count(self.astray_ticks, is_astray(robot), robot);
   count(self.gap_ticks, self.gap.known && !self.whole, robot);
-  if (self.astray_ticks > robot.params.ticks(robot.params.request_timeout_s)) return leave(self);
-  if (self.gap_ticks <= robot.params.ticks(robot.params.gap_patience_s)) return;
+  if (self.astray_ticks > whole(robot.params.request_rounds)) return leave(self);
+  if (self.gap_ticks <= robot.params.rounds(robot.params.gap_patience_drives)) return;
   const bool goes_on = robot.params.chains() == 1 && self.links > 0;
-  if (!goes_on || norm(self.gap.at) > robot.params.arrival_distance_m) return leave(self);
+  if (!goes_on || norm(self.gap.at) > robot.params.arrival_distance) return leave(self);
   move_up(self, self.gap.at + self.outwards);
 }
 
@@ -197,8 +197,8 @@ void follow_chain(Robot& robot, RobotId given_up) noexcept {
   if (sent) {
     self.worker = self.id;
     self.whole = true;
-    self.beyond_m = self.assignment.distance_m();
-    self.path_m = self.assignment.known && self.base.known ? distance(self.assignment.target, self.base.at) : 0.0F;
+    self.beyond = self.assignment.away();
+    self.path = self.assignment.known && self.base.known ? distance(self.assignment.target, self.base.at) : 0.0F;
   } else if (self.is_free()) {
     if (!self.is_base()) answer(robot);
   } else {

@@ -6,30 +6,30 @@ namespace {
 
 constexpr Parameter<Params> of_chains[] = {
     {{"safe_distance", "", "C", "chains: SAFE, a robot goes on only while its parent is nearer than this",
-      "Larger needs fewer relays, with less room to react.", "chains", 0.05F, 1.0F, Scaling::range},
-     &Params::safe_distance_m},
+      "Larger needs fewer relays, with less room to react.", "chains", 0.05F, 1.0F},
+     &Params::safe_distance},
     {{"critical_distance", "", "C", "chains: CRITICAL, a robot whose parent is farther goes back to it",
-      "Between safe_distance and longest_link.", "chains", 0.05F, 1.0F, Scaling::range},
-     &Params::critical_distance_m},
+      "Between safe_distance and longest_link.", "chains", 0.05F, 1.0F},
+     &Params::critical_distance},
     {{"chains_per_target", "", "", "chains: this many chains join each worker to the base",
       "With two or more a worker stays connected when a relay dies; each takes as many relays.", "chains", 1.0F,
       static_cast<float>(most_chains)},
      &Params::chains_per_target},
-    {{"request_timeout_s", "", "s", "chains: a free robot that does not answer for this long is no longer asked",
-      "More than a question and its answer take.", "chains", 0.1F, 60.0F},
-     &Params::request_timeout_s},
-    {{"ignore_s", "", "s", "chains: a robot that did not answer is not asked again for this long",
-      "More than it takes others to join.", "chains", 0.0F, 600.0F},
-     &Params::ignore_s},
-    {{"gap_patience_s", "", "s", "chains: a relay in the place of a dead one waits this long for the rest of the chain",
-      "More than the rest takes to come back.", "chains", 1.0F, 600.0F},
-     &Params::gap_patience_s},
+    {{"request_rounds", "", "rounds", "chains: a free robot that does not answer for this long is no longer asked",
+      "More than a question and its answer take.", "chains", 1.0F, 600.0F},
+     &Params::request_rounds},
+    {{"ignore_rounds", "", "rounds", "chains: a robot that did not answer is not asked again for this long",
+      "More than it takes others to join.", "chains", 0.0F, 6000.0F},
+     &Params::ignore_rounds},
+    {{"gap_patience_drives", "", "drives", "chains: a relay in the place of a dead one waits this long for the rest of the chain",
+      "More than the rest takes to come back.", "chains", 0.1F, 30.0F},
+     &Params::gap_patience_drives},
     {{"free_spacing", "", "C", "chains: how far apart free robots stand around the base",
-      "Nearer robots are found sooner, and hide one another.", "chains", 0.01F, 1.0F, Scaling::range},
-     &Params::free_spacing_m},
-    {{"side_offset_m", "", "m", "chains: how far apart the chains of one worker arrive at it",
-      "More than two body diameters.", "chains", 0.0F, 100.0F, Scaling::mission},
-     &Params::side_offset_m},
+      "Nearer robots are found sooner, and hide one another.", "chains", 0.01F, 1.0F},
+     &Params::free_spacing},
+    {{"side_offset", "", "C", "chains: how far apart the chains of one worker arrive at it",
+      "More than two body diameters.", "chains", 0.0F, 5.0F},
+     &Params::side_offset},
 };
 
 }  // namespace
@@ -37,10 +37,10 @@ constexpr Parameter<Params> of_chains[] = {
 std::span<const Parameter<Params>> parameters() noexcept { return of_chains; }
 
 std::string_view fault(const Params& params) noexcept {
-  if (!(params.safe_distance_m < params.critical_distance_m)) return "safe_distance must be below critical_distance";
-  if (!(params.critical_distance_m < params.longest_link_m)) return "critical_distance must be below longest_link";
-  if (!(params.ignore_s / params.tick_s < 65535.0F)) return "ignore_s must be below 65535 ticks";
-  if (!(params.gap_patience_s / params.tick_s < 65535.0F)) return "gap_patience_s must be below 65535 ticks";
+  if (!(params.safe_distance < params.critical_distance)) return "safe_distance must be below critical_distance";
+  if (!(params.critical_distance < params.longest_link)) return "critical_distance must be below longest_link";
+  if (!(params.gap_patience_drives * params.rounds_per_drive < 65535.0F))
+    return "gap_patience_drives must be below 65535 rounds";
   return {};
 }
 

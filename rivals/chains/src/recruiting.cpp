@@ -20,7 +20,7 @@ void follow_request(Robot& robot, Chain& chain) noexcept {
   if (joined) {
     chain.asked_ticks = 0;
     const bool leads = robot.table().message(k).above[0] != nobody || chain.parent == nobody;
-    if (!leads || !(robot.table().range(k) < robot.params.safe_distance_m)) return;
+    if (!leads || !(robot.table().range(k) < robot.params.safe_distance)) return;
     chain.parent = chain.asked;
     chain.above = no_ids();
     chain.above[0] = chain.parent;
@@ -29,9 +29,9 @@ void follow_request(Robot& robot, Chain& chain) noexcept {
   }
   const bool declined = k >= 0 && robot.table().message(k).worker != nobody;
   chain.asked_ticks = static_cast<std::uint16_t>(chain.asked_ticks + robot.elapsed_ticks);
-  if (!declined && chain.asked_ticks <= robot.params.ticks(robot.params.request_timeout_s)) return;
+  if (!declined && chain.asked_ticks <= whole(robot.params.request_rounds)) return;
   self.ignored = chain.asked;
-  self.ignored_ticks = static_cast<std::uint16_t>(robot.params.ticks(robot.params.ignore_s));
+  self.ignored_ticks = static_cast<std::uint16_t>(whole(robot.params.ignore_rounds));
   chain.asked = nobody;
 }
 
@@ -41,9 +41,9 @@ bool wants_another(const Robot& robot, const Chain& chain) noexcept {
   if (chain.parent == nobody) return self.whole;
   const int k = robot.find_fresh(chain.parent);
   if (k < 0 || chain.parent != self.root) return false;
-  const float safe_m = robot.params.safe_distance_m;
-  const bool short_of = static_cast<float>(self.links + 1) < std::ceil(self.path_m / safe_m);
-  return short_of || (robot.missing_m() > slack_m && robot.table().range(k) >= safe_m);
+  const float safe = robot.params.safe_distance;
+  const bool short_of = static_cast<float>(self.links + 1) < std::ceil(self.path / safe);
+  return short_of || (robot.missing() > slack && robot.table().range(k) >= safe);
 }
 
 // The nearest that is nearer to the base than me; nobody if there is none.

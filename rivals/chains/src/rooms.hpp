@@ -9,7 +9,7 @@
 namespace banyan::rivals::chains {
 
 inline constexpr int fresh_ticks = 5;    // who was heard within these is where it is said to be
-inline constexpr float slack_m = 0.01F;  // a robot so near its place is there
+inline constexpr float slack = 0.005F;  // a robot so near its place is there
 
 // A robot within its step.
 struct Robot {
@@ -36,8 +36,8 @@ struct Robot {
     return k >= 0 && table().age(k) <= fresh_ticks ? k : -1;
   }
   // How far the robot is from its place: n links from the worker it is n SAFE before the target.
-  [[nodiscard]] float missing_m() const noexcept {
-    return self.beyond_m - static_cast<float>(self.links) * params.safe_distance_m;
+  [[nodiscard]] float missing() const noexcept {
+    return self.beyond - static_cast<float>(self.links) * params.safe_distance;
   }
 };
 

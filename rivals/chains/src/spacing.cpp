@@ -5,7 +5,7 @@
 namespace banyan::rivals::chains {
 namespace {
 
-constexpr float nearly_m = 0.2F;  // a relay so near its place slows down
+constexpr float nearly = 0.1F;  // a relay so near its place slows down
 
 // What the distances to the parents allow; `back`: where to go if they are too large.
 struct Leave {
@@ -22,13 +22,13 @@ Vec2 way_back(const Robot& robot, const Chain& chain) noexcept {
 
 // The worker waits for the rest of a broken chain, but not for ever: a new one has to begin near the base.
 bool waits(const Robot& robot, std::size_t lost) noexcept {
-  return lost < robot.chains().size() && robot.self.gap_ticks <= robot.params.ticks(robot.params.gap_patience_s);
+  return lost < robot.chains().size() && robot.self.gap_ticks <= robot.params.rounds(robot.params.gap_patience_drives);
 }
 
 // (1)
 Leave leave_of(const Robot& robot) noexcept {
   Leave leave;
-  float farthest_m = 0.0F;
+  float farthest = 0.0F;
   std::size_t lost = 0;
   for (const Chain& chain : robot.chains()) {
     const int k = robot.table().find(chain.parent);
@@ -38,9 +38,9 @@ Leave leave_of(const Robot& robot) noexcept {
       continue;
     }
     const float d = robot.table().range(k);
-    if (!(d < robot.params.safe_distance_m) || robot.table().age(k) > fresh_ticks) leave.onwards = false;
-    if (d < robot.params.critical_distance_m || d < farthest_m) continue;
-    farthest_m = d;
+    if (!(d < robot.params.safe_distance) || robot.table().age(k) > fresh_ticks) leave.onwards = false;
+    if (d < robot.params.critical_distance || d < farthest) continue;
+    farthest = d;
     leave.back = unit(robot.table().position(k));
   }
   return leave;
@@ -50,24 +50,24 @@ Leave leave_of(const Robot& robot) noexcept {
 Vec2 beside_worker(const Robot& robot) noexcept {
   const int step = (robot.self.number + 1) / 2;
   const float side = robot.self.number % 2 == 1 ? 1.0F : -1.0F;
-  return left_of(unit(robot.self.child_place.at)) * (side * static_cast<float>(step) * robot.params.side_offset_m);
+  return left_of(unit(robot.self.child_place.at)) * (side * static_cast<float>(step) * robot.params.side_offset);
 }
 
 // (2)
 Vec2 relay_pull(const Robot& robot) noexcept {
   const State& self = robot.self;
-  const float missing_m = robot.missing_m();
-  if (missing_m < slack_m) return {};
+  const float missing = robot.missing();
+  if (missing < slack) return {};
   Vec2 aim = self.gap.known ? self.gap.at : self.child_place.at;
   if (self.child == self.worker) aim += beside_worker(robot);
-  return unit(aim) * std::min(1.0F, missing_m / nearly_m);
+  return unit(aim) * std::min(1.0F, missing / nearly);
 }
 
 // There is room for a free robot to come nearer.
 bool is_open(const Robot& robot, int towards) noexcept {
   const Table<Message>& table = robot.table();
   for (int k = 0; k < table.size(); ++k)
-    if (k != towards && table.range(k) < robot.params.free_spacing_m &&
+    if (k != towards && table.range(k) < robot.params.free_spacing &&
         dot(table.position(k), table.position(towards)) > 0.0F)
       return false;
   return true;
@@ -88,8 +88,8 @@ Vec2 free_motion(const Robot& robot) noexcept {
     if (next < 0 || is_nearer(k, next)) next = k;
   }
   if (next < 0) return {};
-  const float safe_m = robot.params.safe_distance_m;
-  const bool comes = table.range(next) > safe_m || (table.range(next) > 0.5F * safe_m && is_open(robot, next));
+  const float safe = robot.params.safe_distance;
+  const bool comes = table.range(next) > safe || (table.range(next) > 0.5F * safe && is_open(robot, next));
   return comes ? unit(table.position(next)) : Vec2{};
 }
 
@@ -107,8 +107,8 @@ Vec2 spacing_motion(const Robot& robot) noexcept {
 void guard_chain(const Robot& robot, Guard& guard) noexcept {
   const auto add = [&](RobotId end) {
     if (const int k = robot.table().find(end); k >= 0)
-      guard.add(robot.table().position(k), robot.params.longest_link_m - robot.table().spread_m(),
-                robot.params.guard_rate_per_s);
+      guard.add(robot.table().position(k), robot.params.longest_link - robot.table().spread(),
+                robot.params.guard_rate);
   };
   if (robot.self.is_free()) return;
   for (const Chain& chain : robot.chains()) add(chain.parent);

@@ -12,10 +12,9 @@ constexpr float inertia = 0.8F;  // of a robot's velocity that it keeps
 
 // My own velocity by K, in the frame of now.
 Vec2 velocity_of(const Params& params, const Inputs<Heard>& inputs) noexcept {
-  const Odometry& way = inputs.senses().odometry;
-  const float elapsed_s = inputs.senses().elapsed_s > 0.0F ? inputs.senses().elapsed_s : params.tick_s;
-  const Vec2 v = Vec2{way.forward_m, way.sideways_m} / (elapsed_s * params.speed_gain_m_s);
-  return clamped(Carry(way).vector(v), 1.0F);
+  const Carry way = inputs.carry();
+  const Vec2 v = way.shift / (inputs.elapsed() * params.way_in_a_round() * params.speed_gain);
+  return clamped(way.vector(v), 1.0F);
 }
 
 std::uint16_t to_bearing(const Surroundings& around, int k) noexcept {
@@ -65,7 +64,7 @@ Output<Message> step(const Params& params, State& state, const Inputs<Heard>& in
     u = velocity * inertia + lattice_force(robot, velocity) + boundary_tension(robot, boundary) + help.pull + drawn_in;
     if (!boundary.is_boundary()) u += leaders_pull(robot, leaders) + density.force;
   }
-  u += avoidance(state.neighbors, inputs.senses().obstacles, params);
+  u += avoidance(state.neighbors, inputs.obstacles(), params);
 
   Message m{.id = state.id,
             .candidate = boundary.candidate,

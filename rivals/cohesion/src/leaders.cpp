@@ -80,7 +80,7 @@ Guard wait_for_nearest(const Robot& robot) noexcept {
   int nearest = -1;
   for (int k = 0; k < table.size(); ++k)
     if (nearest < 0 || table.range(k) < table.range(nearest)) nearest = k;
-  if (nearest >= 0) guard.add(table.position(nearest), robot.params.longest_link_m, robot.params.guard_rate_per_s);
+  if (nearest >= 0) guard.add(table.position(nearest), robot.params.longest_link, robot.params.guard_rate);
   return guard;
 }
 

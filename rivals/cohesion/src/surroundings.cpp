@@ -31,7 +31,7 @@ Vec2 frame_of(const State& self, int k) noexcept {
 }  // namespace
 
 Surroundings::Surroundings(const Params& params, const State& self) noexcept : size(self.neighbors.size()) {
-  const float scale = source_range / params.longest_link_m;
+  const float scale = source_range / params.longest_link;
   for (int k = 0; k < size; ++k) {
     const auto i = static_cast<std::size_t>(k);
     places[i] = self.neighbors.position(k) * scale;

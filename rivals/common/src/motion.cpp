@@ -6,12 +6,12 @@
 namespace banyan::rivals {
 namespace {
 
-constexpr float same_spot_m = 1e-6F;  // nearer than this there is no direction
+constexpr float same_spot = 1e-6F;  // nearer than this there is no direction
 constexpr float least_u = 0.02F;      // below it a robot rests
 
 Vec2 push_from(Vec2 there, float d, const RivalParams& params) noexcept {
-  const float a = params.avoidance_range_m;
-  return d < a && d > same_spot_m ? there * (-params.avoidance_gain * (a / d - 1.0F) / d) : Vec2{};
+  const float a = params.avoidance_range;
+  return d < a && d > same_spot ? there * (-params.avoidance_gain * (a / d - 1.0F) / d) : Vec2{};
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ void OwnTarget::follow(const Orders& orders, const Carry& carry) noexcept {
 Vec2 target_pull(const OwnTarget& assignment, const RivalParams& params) noexcept {
   if (!assignment.sent || !assignment.known) return {};
   return unit(assignment.target) *
-         (params.target_gain * std::min(1.0F, norm(assignment.target) / params.arrival_distance_m));
+         (params.target_gain * std::min(1.0F, norm(assignment.target) / params.arrival_distance));
 }
 
 Vec2 avoidance(const Neighbors& table, std::span<const Vec2> obstacles, const RivalParams& params) noexcept {
@@ -39,9 +39,9 @@ Vec2 avoidance(const Neighbors& table, std::span<const Vec2> obstacles, const Ri
   return u;
 }
 
-Velocity move(Vec2 u, const Guard& guard, const RivalParams& params) noexcept {
+Motion move(Vec2 u, const Guard& guard, const RivalParams& params) noexcept {
   if (norm(u) < least_u) return {};
-  return drive(clamped(guard.apply(clamped(u, 1.0F) * params.speed_gain_m_s), params.wheel_limit_m_s), guard, params);
+  return drive(clamped(guard.apply(clamped(u, 1.0F) * params.speed_gain), 1.0F), guard, params);
 }
 
 }  // namespace banyan::rivals

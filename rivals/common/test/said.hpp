@@ -41,7 +41,7 @@ TYPED_TEST_P(Said, SurvivesTheWay) {
   EXPECT_TRUE(holds);
 }
 
-TYPED_TEST_P(Said, FitsIntoAPacket) { EXPECT_LE(longest_wire<typename TypeParam::Message>, largest_wire); }
+TYPED_TEST_P(Said, FitsIntoAPacket) { EXPECT_LE(wire_size<typename TypeParam::Message>(), largest_wire); }
 
 // Any bytes: refused, or such that writing them again gives the same.
 TYPED_TEST_P(Said, AnyOtherBytesAreRefused) {

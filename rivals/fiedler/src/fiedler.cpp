@@ -25,7 +25,7 @@ Vec2 gradient(const Params& params, const State& state, const Links& links) noex
     const float difference = state.component - state.neighbors.message(k).component;
     sum += state.neighbors.position(k) * (links[k] * difference * difference);
   }
-  return sum / (params.weight_width_m * params.weight_width_m * std::max(state.square.value, least_to_divide));
+  return sum / (params.weight_width * params.weight_width * std::max(state.square.value, least_to_divide));
 }
 
 // (6)  V = coth(lambda_2 - epsilon),  u_c = -gain dV / dp = gain csch^2(lambda_2 - epsilon) dlambda_2 / dp
@@ -67,8 +67,8 @@ Output<Message> step(const Params& params, State& state, const Inputs<Heard>& in
   // Neighbours' components are those of the last tick, as mine is until the iteration.
   const Vec2 control = connectivity_control(robot);
   iterate(robot);
-  const Vec2 task = state.ticks > params.ticks(params.settling_s) ? target_pull(state.assignment, params) : Vec2{};
-  const Vec2 u = task + control + avoidance(state.neighbors, inputs.senses().obstacles, params);
+  const Vec2 task = state.ticks > whole(params.settling_rounds) ? target_pull(state.assignment, params) : Vec2{};
+  const Vec2 u = task + control + avoidance(state.neighbors, inputs.obstacles(), params);
   return {composed(state), move(u, Guard{}, params)};
 }
 

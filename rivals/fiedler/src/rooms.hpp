@@ -12,8 +12,8 @@ namespace banyan::rivals::fiedler {
 // (1)  a_ij = exp(-d^2 / (2 sigma^2)) up to the longest link, zero beyond.
 [[nodiscard]] inline float weight(const Params& params, Vec2 neighbor) noexcept {
   const float square = dot(neighbor, neighbor);
-  if (!(square < params.longest_link_m * params.longest_link_m)) return 0.0F;
-  return exp_minus(square / (2.0F * params.weight_width_m * params.weight_width_m));
+  if (!(square < params.longest_link * params.longest_link)) return 0.0F;
+  return exp_minus(square / (2.0F * params.weight_width * params.weight_width));
 }
 
 // The weight of the link to each entry of the table, once for the whole step.

@@ -31,7 +31,7 @@ Bid received(const Message& m) noexcept {
 
 bool is_more_urgent(const Bid& a, const Bid& b) noexcept {
   if (a.owner == nobody || b.owner == nobody) return b.owner == nobody && a.owner != nobody;
-  if (a.length_cm != b.length_cm) return a.length_cm > b.length_cm;
+  if (a.length != b.length) return a.length > b.length;
   return a.owner != b.owner ? a.owner < b.owner : a.other < b.other;
 }
 
@@ -46,7 +46,7 @@ void release(State& self) noexcept {
 void note_failure(State& self) noexcept {
   self.rest_ticks = static_cast<std::uint16_t>((self.id * 7919U + self.serial * 104729U) % (3U * self.own_lease_ticks));
   self.insists = !self.insists;
-  if (!self.insists) self.tried_cm = self.bid.length_cm;
+  if (!self.insists) self.tried = self.bid.length;
 }
 
 void age(Robot& robot) noexcept {
@@ -70,7 +70,7 @@ void settle(Robot& robot) noexcept {
   if (l >= 0) self.links.remove(l);
   self.given_up = self.bid.other;
   self.insists = false;
-  self.tried_cm = 0xFFFF;
+  self.tried = 0xFFFF;
   release(self);
 }
 
@@ -86,15 +86,15 @@ Bid nominate(Robot& robot) noexcept {
     const int k = table.find(link.to);
     if (!link.kept || k < 0 || link.to < self.id || link.to == self.parent || table.message(k).parent == self.id)
       continue;
-    const auto length_cm = to_fixed<std::uint16_t>(table.range(k), per_cm);
-    if (length_cm >= self.tried_cm) continue;
-    if (table.range(k) < robot.params.nominate_distance_m && !is_detoured(robot, k)) continue;
+    const auto length = to_fixed<std::uint16_t>(table.range(k), per_range);
+    if (length >= self.tried) continue;
+    if (table.range(k) < robot.params.nominate_distance && !is_detoured(robot, k)) continue;
     const int reach = self.insists ? longest_reach : is_detoured(robot, k) ? detour_reach : first_reach;
-    const Bid bid{self.id, link.to, length_cm, 0, static_cast<std::uint8_t>(reach), 0};
+    const Bid bid{self.id, link.to, length, 0, static_cast<std::uint8_t>(reach), 0};
     if (is_more_urgent(bid, best)) best = bid;
   }
-  if (best.owner == nobody && self.tried_cm != 0xFFFF) {
-    self.tried_cm = 0xFFFF;
+  if (best.owner == nobody && self.tried != 0xFFFF) {
+    self.tried = 0xFFFF;
     self.rest_ticks = rest_ticks;
   }
   return best;

@@ -46,7 +46,7 @@ bool is_relative_neighbor(const Robot& robot, int k) noexcept {
 bool stands_better(const Robot& robot, const Message& m) noexcept {
   const State& self = robot.self;
   if (m.way == not_rooted) return false;
-  if (self.way == not_rooted) return self.silent_ticks > robot.params.ticks(alone_s);
+  if (self.way == not_rooted) return self.silent_ticks > alone_ticks;
   return m.root < self.root;
 }
 
@@ -55,12 +55,12 @@ bool takes_up(const Robot& robot, int k) noexcept {
   const Message& m = robot.table().message(k);
   const State& self = robot.self;
   const bool joins = m.way == not_rooted || self.way == not_rooted || m.root != self.root;
-  return robot.table().range(k) < (joins ? room_to_move * robot.params.longest_link_m : robot.params.add_distance_m);
+  return robot.table().range(k) < (joins ? room_to_move * robot.params.longest_link : robot.params.add_distance);
 }
 
 bool wants(const Robot& robot, int k) noexcept {
   if (lists(robot.table().message(k), robot.self.id)) return takes_up(robot, k);
-  return robot.table().range(k) < robot.params.add_distance_m && is_relative_neighbor(robot, k);
+  return robot.table().range(k) < robot.params.add_distance && is_relative_neighbor(robot, k);
 }
 
 // A robot that is cut off offers a link to the nearest robot that is not; -1: none.
@@ -68,7 +68,7 @@ int way_back(const Robot& robot) noexcept {
   const Table<Message>& table = robot.table();
   int nearest = -1;
   for (int k = 0; k < table.size(); ++k) {
-    if (table.age(k) > 0 || !(table.range(k) < room_to_move * robot.params.longest_link_m) ||
+    if (table.age(k) > 0 || !(table.range(k) < room_to_move * robot.params.longest_link) ||
         !stands_better(robot, table.message(k)))
       continue;
     if (nearest < 0 || table.range(k) < table.range(nearest)) nearest = k;

@@ -6,7 +6,7 @@
 
 namespace banyan::rivals::link_consensus {
 
-inline constexpr float alone_s = 1.0F;  // a robot without a root for so long is cut off
+inline constexpr int alone_ticks = 10;  // a robot without a root for so long is cut off
 
 // A robot within its step.
 struct Robot {

@@ -60,7 +60,7 @@ void take_path(Robot& robot) noexcept {
   self.beat = newest;
   int up = -1;
   const auto way = [&](int k) {
-    const bool is_long = table.range(k) > robot.params.nominate_distance_m;
+    const bool is_long = table.range(k) > robot.params.nominate_distance;
     return std::min<int>(table.message(k).way + (is_long ? long_link_cost : 1), not_rooted - 1);
   };
   for (int k = 0; k < table.size(); ++k) {
@@ -76,7 +76,7 @@ void take_path(Robot& robot) noexcept {
 
 void follow_root(Robot& robot) noexcept {
   State& self = robot.self;
-  const int patience = robot.params.ticks(robot.params.root_silence_s);
+  const int patience = whole(robot.params.root_silence_rounds);
   self.lost_ticks = static_cast<std::uint16_t>(grown(self.lost_ticks, robot));
   const RobotId best = best_root(robot);
   if (best != self.root) {
@@ -95,7 +95,7 @@ void follow_root(Robot& robot) noexcept {
   if (self.root != nobody) take_path(robot);
   if (self.root != nobody && self.silent_ticks > patience) forget_root(self);
   if (self.root != nobody || self.assignment.sent || self.links.size() == 0) return;
-  if (self.silent_ticks > patience + (is_first(robot) ? 0 : robot.params.ticks(alone_s))) {
+  if (self.silent_ticks > patience + (is_first(robot) ? 0 : alone_ticks)) {
     self.root = self.id;
     self.silent_ticks = 0;
     ++self.tally.elections;

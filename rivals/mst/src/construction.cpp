@@ -12,8 +12,7 @@
 namespace banyan::rivals::mst {
 namespace {
 
-constexpr float per_mm = 1000.0F;
-constexpr float most_units = 65000.0F;  // largest length; 16 bits hold 65,535
+constexpr float units_per_range = 2000.0F;
 constexpr float room_to_move = 0.97F;   // of the longest link: a new edge must not be too long at once
 
 bool comes_first(const Edge& a, const Edge& b) noexcept {
@@ -24,10 +23,7 @@ bool comes_first(const Edge& a, const Edge& b) noexcept {
   return a_low != b_low ? a_low < b_low : a_high < b_high;
 }
 
-// As fine as 16 bits allow for links up to C, 1 mm at most, and the same for all robots.
-std::uint16_t units(const Robot& robot, float length_m) noexcept {
-  return to_fixed<std::uint16_t>(length_m, std::min(per_mm, most_units / robot.params.communication_range_m));
-}
+std::uint16_t units(float length) noexcept { return to_fixed<std::uint16_t>(length, units_per_range); }
 
 bool names(const Message& m, RobotId id) noexcept {
   return std::find(m.branches.begin(), m.branches.end(), id) != m.branches.end();
@@ -158,7 +154,7 @@ std::uint16_t grown(std::uint16_t ticks, const Robot& robot) noexcept {
 bool is_stuck(const Robot& robot) noexcept {
   const State& self = robot.self;
   const int patience =
-      robot.params.ticks(robot.params.liveness_period_s) + robot.params.ticks(robot.params.countdown_s);
+      whole(robot.params.liveness_rounds) + whole(robot.params.countdown_rounds);
   const auto more = static_cast<int>((self.id * 7919U + self.level * 104729U) % static_cast<unsigned>(patience + 1));
   return self.decided_ticks > patience + more && self.level < 255;
 }
@@ -187,13 +183,13 @@ void give_up_refused(Robot& robot) noexcept {
   const Message* m = self.decided && self.choice.from == self.id ? robot.said_by(self.choice.to) : nullptr;
   const bool refuses = m != nullptr && m->epoch == self.epoch && !names(*m, self.id);
   self.unanswered_ticks = refuses ? grown(self.unanswered_ticks, robot) : std::uint16_t{0};
-  if (self.unanswered_ticks <= robot.params.ticks(robot.params.liveness_period_s)) return;
+  if (self.unanswered_ticks <= whole(robot.params.liveness_rounds)) return;
   refuse(self, self.choice.to);
   for (Ends* ends : {&self.branches, &self.tree, &self.old}) ends->remove(self.choice.to);
 }
 
 bool is_short(const Robot& robot, int k) noexcept {
-  return robot.table().range(k) < robot.params.longest_link_m * room_to_move;
+  return robot.table().range(k) < robot.params.longest_link * room_to_move;
 }
 
 // No third robot is nearer to both ends, as with every edge of the minimum spanning tree when all robots are in range.
@@ -223,7 +219,7 @@ void begin_construction(Robot& robot) noexcept {
   self.candidate_count = 0;
   for (int k = 0; k < table.size(); ++k) {
     if (!is_held(table.id(k)) && !is_short(robot, k)) continue;
-    self.candidates[self.candidate_count++] = {table.id(k), units(robot, table.range(k)), is_narrow(table, k)};
+    self.candidates[self.candidate_count++] = {table.id(k), units(table.range(k)), is_narrow(table, k)};
   }
   enter_level(self, 0, self.id, nobody);
 }

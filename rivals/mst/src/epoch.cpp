@@ -25,13 +25,13 @@ bool meets_strangers(const Robot& robot) noexcept {
 
 bool wants_new_tree(const Robot& robot) noexcept {
   const State& self = robot.self;
-  if (self.epoch_ticks < robot.params.ticks(robot.params.least_period_s)) return false;
+  if (self.epoch_ticks < robot.params.rounds(robot.params.least_period_drives)) return false;
   if (meets_strangers(robot)) return true;
-  if (!self.done) return self.failed || self.epoch_ticks > robot.params.ticks(robot.params.build_timeout_s);
+  if (!self.done) return self.failed || self.epoch_ticks > whole(robot.params.build_rounds);
   if (self.root == self.id && self.assignment.sent) return true;  // a worker is no root
   return std::any_of(self.tree.begin(), self.tree.end(), [&](RobotId end) {
     const int k = robot.table().find(end);
-    return k < 0 || robot.table().range(k) > robot.params.trigger_distance_m;
+    return k < 0 || robot.table().range(k) > robot.params.trigger_distance;
   });
 }
 
@@ -48,7 +48,7 @@ Call called_by(const Robot& robot, int k) noexcept {
   if (m.next != m.epoch) return {m.next, m.countdown - 1};
   if (!m.done || !is_newer(m.epoch, robot.self.epoch)) return {m.epoch, 0};
   if (!may_be_edge(robot, k)) return {robot.self.next, robot.self.countdown};  // too far to be one network
-  return {advanced(m.epoch), robot.params.ticks(robot.params.countdown_s)};
+  return {advanced(m.epoch), whole(robot.params.countdown_rounds)};
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ void follow_epoch(Robot& robot) noexcept {
   if (!is_newer(self.next, self.epoch)) {
     if (!wants_new_tree(robot)) return;
     self.next = advanced(self.epoch);
-    count_down(robot.params.ticks(robot.params.countdown_s));
+    count_down(whole(robot.params.countdown_rounds));
   }
   if (self.countdown > 0) return;
   self.epoch = self.next;

@@ -33,8 +33,8 @@ void guard_tree(const Robot& robot, Guard& guard) noexcept {
   const State& self = robot.self;
   const auto add = [&](RobotId end) {
     if (const int k = robot.table().find(end); k >= 0)
-      guard.add(robot.table().position(k), robot.params.longest_link_m - robot.table().spread_m(),
-                robot.params.guard_rate_per_s);
+      guard.add(robot.table().position(k), robot.params.longest_link - robot.table().spread(),
+                robot.params.guard_rate);
   };
   for (const RobotId end : self.tree) add(end);
   for (const RobotId end : self.old) add(end);
@@ -80,7 +80,7 @@ Output<Message> step(const Params& params, State& state, const Inputs<Heard>& in
   drop_old_edges(robot);
   Guard guard;
   guard_tree(robot, guard);
-  return {composed(state), move(desired_motion(robot, inputs.senses().obstacles), guard, params)};
+  return {composed(state), move(desired_motion(robot, inputs.obstacles()), guard, params)};
 }
 
 Report report(const State& s) noexcept {

@@ -42,16 +42,15 @@ std::optional<double> disorder(const Algorithm& algorithm, const Setup& setup) {
     return row == rows.end() ? std::numeric_limits<float>::quiet_NaN()
                              : values[static_cast<std::size_t>(row - rows.begin())];
   };
-  constexpr std::string_view ascending[] = {"avoidance_range_m", "recruitment_distance_m", "safe_range_m",
-                                            "ideal_distance_m", "communication_range_m"};
+  constexpr std::string_view ascending[] = {"avoidance_range", "recruitment_distance", "safe_range", "ideal_distance"};
   std::vector<std::pair<float, float>> ordered;
   for (std::size_t k = 1; k < std::size(ascending); ++k)
     ordered.emplace_back(value(ascending[k - 1]), value(ascending[k]));
-  const float range_m = value("communication_range_m");
+  ordered.emplace_back(value(ascending[std::size(ascending) - 1]), 1.0F);
   std::optional<double> sum;
   for (const auto& [smaller, larger] : ordered) {
     if (!(smaller >= larger)) continue;  // in order, or the algorithm has no such length
-    sum = sum.value_or(0.0) + static_cast<double>(smaller - larger) / range_m;
+    sum = sum.value_or(0.0) + static_cast<double>(smaller - larger);
   }
   return sum;
 }

@@ -15,7 +15,7 @@ const nobody = '–';
 
 /** The values in a frame where the algorithm has no such quantity: what no report has set in these columns. */
 const untouched: Partial<Record<Column, number>> = {
-  role: 0, target: -1, phase: 0, epoch: 0, label_cm: -1, depth: 0, parent: -1, old_parent: -1, want_m: 0,
+  role: 0, target: -1, phase: 0, epoch: 0, label_m: -1, depth: 0, parent: -1, old_parent: -1, want_m: 0,
 };
 
 /** Whether some robot's report has a value in one of these columns. Before the first tick no robot has been in a
@@ -28,7 +28,7 @@ function reported(frame: Frame, ...names: Column[]): boolean {
  *  as the paper does, only what its reports have. */
 export function facts(frame: Frame, robot: number): Fact[] {
   const hasRoles = reported(frame, 'role');
-  const hasTree = reported(frame, 'phase', 'label_cm', 'depth', 'old_parent') || (frame.tick === 0 && hasRoles);
+  const hasTree = reported(frame, 'phase', 'label_m', 'depth', 'old_parent') || (frame.tick === 0 && hasRoles);
   const own: Partial<Record<string, boolean>> = {
     epoch: reported(frame, 'epoch'), parent: reported(frame, 'parent'), children: reported(frame, 'parent'), want: reported(frame, 'want_m'),
   };
@@ -47,7 +47,7 @@ export function facts(frame: Frame, robot: number): Fact[] {
   const ofTree: Fact[] = [
     { name: 'phase', value: phases[get('phase')] ?? 'unknown', help: 'Of the reconstruction of the tree, as this robot knows it' },
     { name: 'epoch', value: String(get('epoch')), help: 'Counts the trees' },
-    { name: 'label', value: get('label_cm') < 0 ? nobody : `${(get('label_cm') / 100).toFixed(2)} m`, help: 'Distance to the root along hops when the epoch began' },
+    { name: 'label', value: get('label_m') < 0 ? nobody : `${get('label_m').toFixed(2)} m`, help: 'Distance to the root along hops when the epoch began' },
     { name: 'depth', value: get('depth') === 0 ? nobody : String(get('depth')), help: 'In the tree; the root has 1' },
     who('parent', 'In the tree'),
     who('old_parent', 'In the old tree, while trees are switched'),

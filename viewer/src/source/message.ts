@@ -7,7 +7,7 @@ import type { MessageFields } from './protocol';
 
 // The columns of a frame that are fields of the message (docs/protocol.md, section 1). A message's own `grant` comes
 // first: without a parent it is the robot's hold.
-const shared: Column[] = ['role', 'phase', 'need', 'epoch', 'label_cm', 'depth', 'parent', 'old_parent', 'grant', 'request'];
+const shared: Column[] = ['role', 'phase', 'need', 'epoch', 'label_m', 'depth', 'parent', 'old_parent', 'grant', 'request'];
 
 /** Null if it is not about that robot. Throws Malformed. */
 export function messageOf(text: string, robot: number, frame: Frame | null): MessageFields | null {

@@ -6,11 +6,11 @@ import { type Column, columns, type Frame, type Targets } from '../frame';
 type Kind = 'real' | 'small' | 'count' | 'index'; // index: -1 is stored as 0, 0 as 1, ...
 
 const kinds: Record<Column, Kind> = {
-  x_m: 'real', y_m: 'real', heading_rad: 'real', want_m: 'real', spent: 'real',
+  x_m: 'real', y_m: 'real', heading_rad: 'real', want_m: 'real', label_m: 'real', spent: 'real',
   role: 'small', phase: 'small', need: 'small', spare_state: 'small', alive: 'small', connected: 'small',
   raised: 'small',
   epoch: 'count', depth: 'count',
-  label_cm: 'index', parent: 'index', old_parent: 'index', grant: 'index', request: 'index', target: 'index',
+  parent: 'index', old_parent: 'index', grant: 'index', request: 'index', target: 'index',
 };
 
 export interface Packed {

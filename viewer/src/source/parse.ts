@@ -24,7 +24,7 @@ const robot: Range = { least: -1, most: mostId, whole: true, robot: true };
 const ranges: Record<Column, Range> = {
   x_m: real(-far, far), y_m: real(-far, far), heading_rad: real(-7, 7),
   role: whole(0, 3), phase: whole(0, 4), need: whole(0, 2), spare_state: whole(0, 2),
-  alive: whole(0, 1), connected: whole(0, 1), epoch: whole(0, 65535), label_cm: whole(-1, 65535),
+  alive: whole(0, 1), connected: whole(0, 1), epoch: whole(0, 65535), label_m: real(-1, far),
   depth: whole(0, 65535), parent: robot, old_parent: robot, grant: robot, request: robot,
   want_m: real(0, far), target: whole(-1, mostId), raised: whole(0, 1), spent: real(0, 1),
 };

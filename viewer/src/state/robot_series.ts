@@ -34,7 +34,7 @@ export const robotColumns: readonly { name: (typeof columns)[number]; unit: stri
   { name: 'alive', unit: '', help: '1 until it dies' },
   { name: 'connected', unit: '', help: '1 while it is in one radio component with the root' },
   { name: 'epoch', unit: '', help: 'Counts the trees' },
-  { name: 'label_cm', unit: 'cm', help: 'Distance to the root along hops when the epoch began' },
+  { name: 'label_m', unit: 'm', help: 'Distance to the root along hops when the epoch began' },
   { name: 'depth', unit: '', help: 'In the tree; the root has 1' },
   { name: 'parent', unit: '', help: 'Number of its parent' },
   { name: 'old_parent', unit: '', help: 'Number of its parent in the tree before' },

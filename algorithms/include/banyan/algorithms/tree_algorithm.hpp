@@ -27,14 +27,12 @@ namespace banyan {
 template <class A> class TreeAlgorithmOf : public AlgorithmOf<A> {
  public:
   using typename AlgorithmOf<A>::Params;
-  constexpr TreeAlgorithmOf(std::string_view name, std::string_view summary, Params (*defaults)() noexcept,
-                            bool follows_range = false)
+  constexpr TreeAlgorithmOf(std::string_view name, std::string_view summary, Params (*defaults)() noexcept)
       : AlgorithmOf<A>({.name = name,
                         .summary = summary,
                         .defaults = defaults,
                         .bind = bind,
-                        .fault = cross_fault,
-                        .follows_range = follows_range}) {}
+                        .fault = cross_fault}) {}
 };
 
 }  // namespace banyan

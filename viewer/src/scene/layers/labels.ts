@@ -148,10 +148,10 @@ function corner(x: number, y: number, awayPx: number, side: number, sprite: Labe
 
 function words(shot: Shot, i: number, id: boolean, label: boolean): string {
   if (!label) return id ? String(i) : '';
-  const cm = column(shot.facts.frame, 'label_cm')[i]!;
+  const labelM = column(shot.facts.frame, 'label_m')[i]!;
   const depth = column(shot.facts.frame, 'depth')[i]!;
   const parts = id ? [String(i)] : [];
-  if (cm >= 0 && shot.role(i) !== spare) parts.push(`${(cm / 100).toFixed(1)} m`);
+  if (labelM >= 0 && shot.role(i) !== spare) parts.push(`${labelM.toFixed(1)} m`);
   if (depth > 0 && shot.role(i) !== spare) parts.push(`d${depth}`);
   return parts.join(' · ');
 }

@@ -31,8 +31,7 @@ enum class Type : std::uint8_t { truth, whole, number, name, text, point, points
 struct Range {
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
-  bool above = false;            // the minimum itself is not allowed
-  std::string_view beyond = "";  // what to do about a value above the maximum
+  bool above = false;  // the minimum itself is not allowed
   // False for NaN and infinity.
   [[nodiscard]] bool holds(double x) const noexcept;
 };

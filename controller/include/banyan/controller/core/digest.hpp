@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A running 64-bit digest of values, for state hashes: field by field, never over padding. It does not depend on how
-// wide they are, so builds with ids of 16 and of 32 bits have the same hashes; nobody counts as 0xFFFF.
+// wide they are.
 #pragma once
 
 #include <bit>
@@ -8,7 +8,6 @@
 #include <type_traits>
 
 #include "banyan/controller/core/fixed_point.hpp"
-#include "banyan/controller/core/robot_id.hpp"
 #include "banyan/controller/core/vec2.hpp"
 
 namespace banyan {
@@ -20,7 +19,6 @@ class Digest {
   template <class T> constexpr void add(T v) noexcept {
     if constexpr (std::is_same_v<T, float>) absorb(std::bit_cast<std::uint32_t>(v));
     else if constexpr (std::is_same_v<T, double>) absorb(std::bit_cast<std::uint64_t>(v));
-    else if constexpr (has_wide_ids && std::is_same_v<T, RobotId>) absorb(v == nobody ? narrow_nobody : v);
     else absorb(static_cast<std::uint64_t>(v));
   }
   template <class T> constexpr void add(BasicVec2<T> v) noexcept {

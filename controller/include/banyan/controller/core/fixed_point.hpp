@@ -21,8 +21,8 @@ template <class Int> constexpr Int to_fixed(float v, float unit) noexcept {
 }
 
 // A count of robots, as it travels.
-constexpr RobotCount saturated(std::uint32_t count, std::uint32_t most = most_robots) noexcept {
-  return static_cast<RobotCount>(std::min(count, most));
+constexpr RobotCount saturated(std::uint32_t count) noexcept {
+  return static_cast<RobotCount>(std::min(count, most_robots));
 }
 
 // A length in such units, C.

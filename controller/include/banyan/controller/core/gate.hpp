@@ -34,6 +34,7 @@ class Gate {
   // frame and in C. In place; the order stays.
   template <class Heard> std::span<Heard> packets(std::span<Heard> heard, const Platform& platform) noexcept {
     const float longest_age_s = platform.tick_s * longest_step_ticks;
+    const float per_second = 1.0F / platform.tick_s;
     std::size_t kept = 0;
     for (const Heard& h : heard) {
       const Vec2 position = h.position * per_metre_;
@@ -43,7 +44,7 @@ class Gate {
       }
       Heard& passed = heard[kept++];
       if (&passed != &h) passed = h;  // mostly all pass, and stay where they are
-      passed.position = h.age_s > 0.0F ? carried_to_now(position, h.age_s) : position;
+      passed.position = h.age_s > 0.0F ? carried_to_now(position, h.age_s * per_second) : position;
       passed.age_s = 0.0F;
     }
     return heard.first(kept);
@@ -55,7 +56,9 @@ class Gate {
   // The nearest point of each obstacle within reach of the proximity sensor, C.
   [[nodiscard]] std::span<const Vec2> obstacles() const noexcept { return obstacles_; }
   [[nodiscard]] const std::optional<Charge>& charge() const noexcept { return charge_; }
-  // Whole rounds since the last step, at least one.
+  // Rounds since the last step.
+  [[nodiscard]] float elapsed() const noexcept { return elapsed_; }
+  // The same as whole ones, at least one.
   [[nodiscard]] int elapsed_ticks() const noexcept { return elapsed_ticks_; }
   // Readings that did not pass.
   [[nodiscard]] std::uint32_t rejected() const noexcept { return rejected_; }
@@ -64,13 +67,13 @@ class Gate {
   // False for NaN and infinity too.
   static bool is_within(Vec2 v, float limit) noexcept { return squared_norm(v) <= limit * limit; }
   void admit_obstacles(std::span<const Vec2> obstacles) noexcept;
-  // A position (C) measured `age_s` ago, in the frame of then, as it is now in the present frame.
-  [[nodiscard]] Vec2 carried_to_now(Vec2 position, float age_s) const noexcept;
+  // A position measured so many rounds ago, in the frame of then, as it is now in the present frame.
+  [[nodiscard]] Vec2 carried_to_now(Vec2 position, float rounds) const noexcept;
 
   float per_metre_;
   Vec2 moved_;  // C, in the frame at the last step
   float turn_rad_ = 0.0F;
-  float elapsed_s_;
+  float elapsed_ = 1.0F;
   int elapsed_ticks_ = 1;
   std::uint32_t rejected_ = 0;
   Orders orders_;
@@ -88,6 +91,7 @@ template <class Heard> class Inputs : private Gate {
   [[nodiscard]] std::span<Heard> heard() const noexcept { return heard_; }
   using Gate::carry;
   using Gate::charge;
+  using Gate::elapsed;
   using Gate::elapsed_ticks;
   using Gate::obstacles;
   using Gate::orders;

@@ -92,10 +92,12 @@ struct WheelSpeeds {
 
 // A point or vector remembered over ticks, carried along by own odometry every tick.
 struct Carry {
-  Vec2 shift;               // C
+  Vec2 shift;                 // C, or m for a host
   Vec2 rotation{1.0F, 0.0F};  // (cos, sin) of the turn
   Carry() = default;
   Carry(Vec2 moved, float turn_rad) noexcept : shift(moved), rotation(unit_vector(turn_rad)) {}
+  explicit Carry(const Odometry& odometry) noexcept
+      : Carry({odometry.forward_m, odometry.sideways_m}, odometry.turn_rad) {}
   [[nodiscard]] Vec2 point(Vec2 p) const noexcept { return rotate_back(rotation, p - shift); }
   [[nodiscard]] Vec2 vector(Vec2 v) const noexcept { return rotate_back(rotation, v); }
 };

@@ -63,10 +63,13 @@ inline constexpr float farthest_target = 200.0F;  // C, from where the swarm sta
 
 // What is outside, in words; nothing if all is well.
 [[nodiscard]] constexpr std::string_view machine_fault(const Machine& machine) noexcept {
-  if (!(machine.rounds_per_drive >= least_rounds_per_drive && machine.rounds_per_drive <= most_rounds_per_drive))
+  constexpr float rounding = 1e-4F;
+  const float rounds = machine.rounds_per_drive;
+  if (!(rounds >= least_rounds_per_drive * (1.0F - rounding) && rounds <= most_rounds_per_drive * (1.0F + rounding)))
     return "the radio range C divided by the wheels' limit must be 25 to 2,000 control periods: neighbours would be gone "
            "before they are heard twice, or get nowhere";
-  if (!(machine.body_radius >= least_body_radius && machine.body_radius <= most_body_radius))
+  const float radius = machine.body_radius;
+  if (!(radius >= least_body_radius * (1.0F - rounding) && radius <= most_body_radius * (1.0F + rounding)))
     return "the body's radius must be 0.001 to 0.17 of the radio range C: larger bodies block each other's way";
   return {};
 }

@@ -60,7 +60,7 @@ class Swarm {
 
   // What robot i broadcast last, as bytes: at most largest_wire (wire.hpp). Returns how many.
   virtual std::size_t send(std::size_t i, std::span<std::uint8_t> bytes) const noexcept = 0;
-  [[nodiscard]] virtual std::size_t message_bytes() const noexcept = 0;  // of its longest messages
+  [[nodiscard]] virtual std::size_t message_bytes() const noexcept = 0;  // of each of its messages
   // A message from outside the swarm: a place that stands for its sender in packets until advance(). Nothing
   // if the bytes are none that this algorithm writes. Not while step() runs.
   virtual std::optional<std::uint32_t> receive(std::span<const std::uint8_t> bytes) = 0;

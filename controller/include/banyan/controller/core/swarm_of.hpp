@@ -140,9 +140,7 @@ template <class A> class SwarmOf final : public Swarm {
   std::size_t send(std::size_t i, std::span<std::uint8_t> bytes) const noexcept override {
     return encode_fields(slots_[slot_of(1)][i], bytes);
   }
-  [[nodiscard]] std::size_t message_bytes() const noexcept override {
-    return states_.size() > most_narrow_robots ? longest_wire<Message> : wire_size<Message>();
-  }
+  [[nodiscard]] std::size_t message_bytes() const noexcept override { return wire_size<Message>(); }
   std::optional<std::uint32_t> receive(std::span<const std::uint8_t> bytes) override {
     const std::optional<Message> message = decode_fields<Message>(bytes);
     if (!message) return std::nullopt;

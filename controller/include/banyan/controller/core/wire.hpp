@@ -11,8 +11,7 @@
 //   visitor.coordinate(name, meaning, field)          a coordinate of a place, C (fixed_point.hpp)
 //   visitor.real(name, meaning, field, limit)         a float of at most that magnitude
 // and names its blocks in `blocks`. On the wire: a header byte, the choices and flags packed into bits,
-// then the rest, little-endian, in the order of the list, without padding. Ids and numbers of robots take two bytes as
-// long as all of a message fit; else, in a build with wide ids (robot_id.hpp), all take four, and the header says so.
+// then the rest, little-endian, in the order of the list, without padding.
 #pragma once
 
 #include <bit>
@@ -29,7 +28,8 @@
 
 namespace banyan {
 
-// The header byte: the version of the format in its low three bits, and what a message is made of.
+// The header byte: the version of the format in its low three bits, and what a message is made of. The highest bit is
+// reserved: nobody sets it.
 inline constexpr std::uint8_t wire_version = 1;
 namespace block {
 inline constexpr std::uint8_t tree = 0;           // always there
@@ -37,13 +37,12 @@ inline constexpr std::uint8_t further = 1U << 3;  // a second byte follows, whic
 inline constexpr std::uint8_t healing = 1U << 4;
 inline constexpr std::uint8_t obstacles = 1U << 5;
 inline constexpr std::uint8_t convoy = 1U << 6;
-inline constexpr std::uint8_t wide_ids = 1U << 7;  // ids and numbers of robots have 32 bits
 // In the second byte:
 inline constexpr std::uint8_t power = 1U << 0;
 }  // namespace block
 
-inline constexpr std::size_t largest_plain_wire = 96;                  // bytes, without further blocks
-inline constexpr std::size_t largest_wire = has_wide_ids ? 160 : 112;  // with them, and with wide ids
+inline constexpr std::size_t largest_plain_wire = 96;  // bytes, without further blocks
+inline constexpr std::size_t largest_wire = 112;       // with them
 
 // The second byte of messages of this type; 0: they have none.
 template <class Message> constexpr std::uint8_t further_blocks_of() noexcept {
@@ -52,9 +51,6 @@ template <class Message> constexpr std::uint8_t further_blocks_of() noexcept {
 }
 
 namespace wire {
-
-inline constexpr std::size_t narrow = 2;  // bytes of an id or a number of robots
-inline constexpr std::size_t wide = 4;
 
 // Visitors are inlined: firmware then contains no names and meanings.
 
@@ -128,15 +124,15 @@ class BitReader {
 };
 
 // Second pass: whole bytes.
-template <std::size_t id_bytes> class ByteWriter {
+class ByteWriter {
  public:
   explicit ByteWriter(std::uint8_t* out) noexcept : out_(out) {}
   template <class E> [[gnu::always_inline]] void choice(const char*, const char*, const E&, int, E) noexcept {}
   [[gnu::always_inline]] void flag(const char*, const char*, bool) noexcept {}
   template <class T> [[gnu::always_inline]] void number(const char*, const char*, const T& v) noexcept { put(v); }
   template <class T> [[gnu::always_inline]] void known(const char*, const char*, const T& v) noexcept { put(v); }
-  [[gnu::always_inline]] void robot(const char*, const char*, RobotId v) noexcept { put<id_bytes>(v); }
-  [[gnu::always_inline]] void count(const char*, const char*, RobotCount v) noexcept { put<id_bytes>(v); }
+  [[gnu::always_inline]] void robot(const char*, const char*, RobotId v) noexcept { put(v); }
+  [[gnu::always_inline]] void count(const char*, const char*, RobotCount v) noexcept { put(v); }
   template <class T> [[gnu::always_inline]] void scaled(const char*, const char*, const T& v, float) noexcept {
     put(v);
   }
@@ -147,28 +143,22 @@ template <std::size_t id_bytes> class ByteWriter {
   [[nodiscard]] std::uint8_t* end() const noexcept { return out_; }
 
  private:
-  template <std::integral T> void put(T v) noexcept { put<sizeof(T)>(static_cast<std::make_unsigned_t<T>>(v)); }
-  template <std::size_t bytes> void put(std::uint32_t u) noexcept {
-    for (std::size_t k = 0; k < bytes; ++k) *out_++ = static_cast<std::uint8_t>(u >> (8 * k) & 0xFFU);
+  template <std::integral T> void put(T v) noexcept {
+    const std::uint32_t u = static_cast<std::make_unsigned_t<T>>(v);
+    for (std::size_t k = 0; k < sizeof(T); ++k) *out_++ = static_cast<std::uint8_t>(u >> (8 * k) & 0xFFU);
   }
   std::uint8_t* out_;
 };
 
-template <std::size_t id_bytes> class ByteReader {
+class ByteReader {
  public:
   explicit ByteReader(const std::uint8_t* in) noexcept : in_(in) {}
   template <class E> [[gnu::always_inline]] void choice(const char*, const char*, E&, int, E) noexcept {}
   [[gnu::always_inline]] void flag(const char*, const char*, bool&) noexcept {}
   template <class T> [[gnu::always_inline]] void number(const char*, const char*, T& v) noexcept { v = take<T>(); }
   template <class T> [[gnu::always_inline]] void known(const char*, const char*, T& v) noexcept { v = take<T>(); }
-  [[gnu::always_inline]] void robot(const char*, const char*, RobotId& v) noexcept {
-    if constexpr (id_bytes == narrow) v = from_narrow(take<std::uint16_t>());
-    else v = take<RobotId>();
-  }
-  [[gnu::always_inline]] void count(const char*, const char*, RobotCount& v) noexcept {
-    v = static_cast<RobotCount>(take<id_bytes>());
-    if constexpr (has_wide_ids) ok_ = ok_ && v <= most_robots;  // so that no sum of them overflows
-  }
+  [[gnu::always_inline]] void robot(const char*, const char*, RobotId& v) noexcept { v = take<RobotId>(); }
+  [[gnu::always_inline]] void count(const char*, const char*, RobotCount& v) noexcept { v = take<RobotCount>(); }
   template <class T> [[gnu::always_inline]] void scaled(const char*, const char*, T& v, float) noexcept {
     v = take<T>();
   }
@@ -182,11 +172,10 @@ template <std::size_t id_bytes> class ByteReader {
   [[nodiscard]] bool ok() const noexcept { return ok_; }
 
  private:
-  template <std::integral T> T take() noexcept { return static_cast<T>(take<sizeof(T)>()); }
-  template <std::size_t bytes> std::uint32_t take() noexcept {
+  template <std::integral T> T take() noexcept {
     std::uint32_t u = 0;
-    for (std::size_t k = 0; k < bytes; ++k) u |= static_cast<std::uint32_t>(*in_++) << (8 * k);
-    return u;
+    for (std::size_t k = 0; k < sizeof(T); ++k) u |= static_cast<std::uint32_t>(*in_++) << (8 * k);
+    return static_cast<T>(u);
   }
   const std::uint8_t* in_;
   bool ok_ = true;
@@ -195,13 +184,12 @@ template <std::size_t id_bytes> class ByteReader {
 // How many bytes all of it takes.
 class Counter {
  public:
-  constexpr explicit Counter(std::size_t id_bytes) noexcept : id_bytes_(id_bytes) {}
   template <class E> constexpr void choice(const char*, const char*, const E&, int bits, E) noexcept { bits_ += bits; }
   constexpr void flag(const char*, const char*, bool) noexcept { ++bits_; }
   template <class T> constexpr void number(const char*, const char*, const T&) noexcept { bytes_ += sizeof(T); }
   template <class T> constexpr void known(const char*, const char*, const T&) noexcept { bytes_ += sizeof(T); }
-  constexpr void robot(const char*, const char*, RobotId) noexcept { bytes_ += id_bytes_; }
-  constexpr void count(const char*, const char*, RobotCount) noexcept { bytes_ += id_bytes_; }
+  constexpr void robot(const char*, const char*, RobotId) noexcept { bytes_ += sizeof(RobotId); }
+  constexpr void count(const char*, const char*, RobotCount) noexcept { bytes_ += sizeof(RobotCount); }
   template <class T> constexpr void scaled(const char*, const char*, const T&, float) noexcept { bytes_ += sizeof(T); }
   constexpr void coordinate(const char*, const char*, Coordinate) noexcept { bytes_ += sizeof(Coordinate); }
   constexpr void real(const char*, const char*, float, float) noexcept { bytes_ += sizeof(float); }
@@ -210,105 +198,52 @@ class Counter {
   }
 
  private:
-  std::size_t id_bytes_;
   int bits_ = 0;
   std::size_t bytes_ = 0;
 };
 
-// Whether an id or a number does not fit into two bytes.
-class WidthSeeker {
- public:
-  template <class E> constexpr void choice(const char*, const char*, const E&, int, E) noexcept {}
-  constexpr void flag(const char*, const char*, bool) noexcept {}
-  template <class T> constexpr void number(const char*, const char*, const T&) noexcept {}
-  template <class T> constexpr void known(const char*, const char*, const T&) noexcept {}
-  constexpr void robot(const char*, const char*, std::uint32_t v) noexcept {
-    found_ = found_ || (v >= narrow_nobody && v != nobody);
-  }
-  constexpr void count(const char*, const char*, std::uint32_t v) noexcept { found_ = found_ || v > UINT16_MAX; }
-  template <class T> constexpr void scaled(const char*, const char*, const T&, float) noexcept {}
-  constexpr void coordinate(const char*, const char*, Coordinate) noexcept {}
-  constexpr void real(const char*, const char*, float, float) noexcept {}
-  [[nodiscard]] constexpr bool found() const noexcept { return found_; }
-
- private:
-  bool found_ = false;
-};
-template <class Message> constexpr bool needs_wide_ids(const Message& message) noexcept {
-  WidthSeeker seeker;
-  visit_fields(seeker, message);
-  return seeker.found();
-}
-
 }  // namespace wire
 
 // Bytes of a message of this type.
-template <class Message> constexpr std::size_t wire_size(std::size_t id_bytes = wire::narrow) noexcept {
-  wire::Counter counter(id_bytes);
+template <class Message> constexpr std::size_t wire_size() noexcept {
+  wire::Counter counter;
   const Message message{};
   visit_fields(counter, message);
   return counter.bytes() + (further_blocks_of<Message>() != 0 ? 1 : 0);
 }
 
-// Of the longest.
-template <class Message>
-inline constexpr std::size_t longest_wire = wire_size<Message>(has_wide_ids ? wire::wide : wire::narrow);
-
 // Its first byte.
-template <class Message> constexpr std::uint8_t header_of(std::size_t id_bytes = wire::narrow) noexcept {
+template <class Message> constexpr std::uint8_t header_of() noexcept {
   return static_cast<std::uint8_t>(wire_version | Message::blocks |
-                                   (further_blocks_of<Message>() != 0 ? block::further : 0) |
-                                   (id_bytes == wire::wide ? block::wide_ids : 0));
+                                   (further_blocks_of<Message>() != 0 ? block::further : 0));
 }
 
-namespace wire {
-
-template <std::size_t id_bytes, class Message>
-std::size_t write(const Message& message, std::span<std::uint8_t> out) noexcept {
+// Writes wire_size<Message>() bytes, for which `out` must have room. Returns how many.
+template <class Message> std::size_t encode_fields(const Message& message, std::span<std::uint8_t> out) noexcept {
   constexpr std::uint8_t further = further_blocks_of<Message>();
-  out[0] = header_of<Message>(id_bytes);
+  out[0] = header_of<Message>();
   if constexpr (further != 0) out[1] = further;
-  BitWriter bits(out.data() + (further != 0 ? 2 : 1));
+  wire::BitWriter bits(out.data() + (further != 0 ? 2 : 1));
   visit_fields(bits, message);
-  ByteWriter<id_bytes> bytes(bits.end());
+  wire::ByteWriter bytes(bits.end());
   visit_fields(bytes, message);
   return static_cast<std::size_t>(bytes.end() - out.data());
 }
 
-template <std::size_t id_bytes, class Message>
-std::optional<Message> read(std::span<const std::uint8_t> bytes) noexcept {
+// Nothing if the size, the version, the blocks, an enumerator, a reserved bit or a float is not one that
+// encode_fields() writes; never reads outside `bytes`.
+template <class Message> std::optional<Message> decode_fields(std::span<const std::uint8_t> bytes) noexcept {
   constexpr std::uint8_t further = further_blocks_of<Message>();
-  if (bytes.size() != wire_size<Message>(id_bytes) || bytes[0] != header_of<Message>(id_bytes)) return std::nullopt;
+  if (bytes.size() != wire_size<Message>() || bytes[0] != header_of<Message>()) return std::nullopt;
   if constexpr (further != 0)
     if (bytes[1] != further) return std::nullopt;
   Message message;
-  BitReader bits(bytes.data() + (further != 0 ? 2 : 1));
+  wire::BitReader bits(bytes.data() + (further != 0 ? 2 : 1));
   visit_fields(bits, message);
-  ByteReader<id_bytes> rest(bits.end());
+  wire::ByteReader rest(bits.end());
   visit_fields(rest, message);
   if (!bits.ok() || !rest.ok() || message.id == nobody) return std::nullopt;
   return message;
-}
-
-}  // namespace wire
-
-// Writes at most longest_wire<Message> bytes, for which `out` must have room. Returns how many.
-template <class Message> std::size_t encode_fields(const Message& message, std::span<std::uint8_t> out) noexcept {
-  if constexpr (has_wide_ids)
-    if (wire::needs_wide_ids(message)) return wire::write<wire::wide>(message, out);
-  return wire::write<wire::narrow>(message, out);
-}
-
-// Nothing if the size, the version, the blocks, an enumerator, a reserved bit, a float or a width is not one that
-// encode_fields() writes; never reads outside `bytes`.
-template <class Message> std::optional<Message> decode_fields(std::span<const std::uint8_t> bytes) noexcept {
-  if constexpr (has_wide_ids) {
-    if (!bytes.empty() && (bytes[0] & block::wide_ids) != 0) {
-      const auto message = wire::read<wire::wide, Message>(bytes);
-      return message && wire::needs_wide_ids(*message) ? message : std::nullopt;
-    }
-  }
-  return wire::read<wire::narrow, Message>(bytes);
 }
 
 }  // namespace banyan

@@ -17,9 +17,7 @@ namespace banyan {
 struct alignas(2 * sizeof(RobotId)) RootToken {
   Serial sequence = 0;
   RobotId id = nobody;
-  friend constexpr bool operator==(RootToken a, RootToken b) noexcept {
-    return equal_as<std::uint32_t, &RootToken::sequence, &RootToken::id>(a, b);
-  }
+  friend constexpr bool operator==(RootToken a, RootToken b) noexcept { return equal_as<std::uint32_t>(a, b); }
 };
 constexpr bool newer(RootToken a, RootToken b) noexcept {
   return a.sequence != b.sequence ? is_newer(a.sequence, b.sequence) : a.id > b.id;
@@ -41,8 +39,7 @@ struct TreeTies {
   std::uint8_t tree_hops = unreachable;  // hops over unattached spares to the rooted tree, 0: in it
 
   friend constexpr bool operator==(const TreeTies& a, const TreeTies& b) noexcept {
-    return equal_as<std::uint64_t, &TreeTies::parent, &TreeTies::old_parent, &TreeTies::grant, &TreeTies::role,
-                    &TreeTies::tree_hops>(a, b);
+    return equal_as<std::uint64_t>(a, b);
   }
 };
 

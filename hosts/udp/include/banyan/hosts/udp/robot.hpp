@@ -19,9 +19,9 @@ namespace banyan::udp {
 
 class UdpRobot {
  public:
-  // Stands still while its newest frame is older than `stop_after_s`. `radius_m`: of a body. `algorithm` must outlive
+  // Stands still while its newest frame is older than `stop_after_s`. `algorithm` must outlive
   // it.
-  UdpRobot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s, float radius_m);
+  UdpRobot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s);
 
   // What the hub has said. `at`: where the own odometry was when it was measured; nothing: the hub knows that itself.
   void take(const SensorFrame& frame, double now_s, const std::optional<OdometricPose>& at = {});
@@ -54,7 +54,6 @@ class UdpRobot {
   Setup setup_;
   RobotId id_;
   double stop_after_s_;
-  float radius_m_;
   std::unique_ptr<Swarm> swarm_;  // of this robot alone; none before the first frame
 
   SensorFrame frame_;       // the newest

@@ -23,7 +23,6 @@ struct RobotOptions {
   std::string algorithm = "convoy";
   Setup setup;
   std::string base;           // "": simulated wheels; tcp:ADDRESS:PORT or a serial device
-  double radius_m = 0.0704;   // of a body; Khepera IV
   double stop_after_s = 0.5;  // without a frame from the hub; without a hub, without a pose of its base
   double delay_s = 0.0;       // from a measurement of the tracker to its arrival here; with a base only
   double speed = 1.0;         // of its clock

@@ -8,17 +8,17 @@
 
 namespace banyan::rivals::branches {
 
-// Distances in C and times are those of the authors' program, in which C is 0.8 m and a tick takes 0.1 s.
+// Distances and times are those of the authors' program, in which C is 0.8 m and a tick takes 0.1 s.
 struct Params : RivalParams {
-  constexpr Params() noexcept { longest_link_m = 1.875F; }
-  float separation_m = 1.25F;
-  float joining_m = 1.125F;
-  float spacing_m = 1.5F;
-  float flock_m = 0.375F;
-  float change_timeout_s = 0.8F;
-  float change_pause_s = 0.4F;
-  float transfer_interval_s = 3.0F;
-  float join_patience_s = 10.0F;  // ours
+  constexpr Params() noexcept { longest_link = 0.9375F; }
+  float separation = 0.625F;
+  float joining = 0.5625F;
+  float spacing = 0.75F;
+  float flock = 0.1875F;
+  float change_rounds = 8.0F;
+  float pause_rounds = 4.0F;
+  float transfer_rounds = 30.0F;
+  float join_patience_drives = 1.0F;  // ours
 };
 
 [[nodiscard]] std::span<const Parameter<Params>> parameters() noexcept;

@@ -99,7 +99,7 @@ struct State : KnownRoot {
   [[nodiscard]] bool is_joined() const noexcept { return joined_age <= news_ticks; }
   // For longer than a change takes to lead the news another way.
   [[nodiscard]] bool is_cut(const Params& params) const noexcept {
-    return cut_ticks > params.ticks(params.change_timeout_s);
+    return cut_ticks > whole(params.change_rounds);
   }
   [[nodiscard]] bool has_lost_parent() const noexcept { return lost != nobody && lost_root != nobody; }
   [[nodiscard]] bool has_lost_child() const noexcept { return lost != nobody && lost_root == nobody; }

@@ -24,8 +24,8 @@ struct Message {
   Ids above = no_ids();         // the robots towards the base, its parent first; of a worker: the parent in each chain
   Ids below = no_ids();         // the robots towards the worker, its child first
   std::uint8_t links = 0;       // between it and the worker
-  std::uint16_t beyond_cm = 0;  // along them and on to the target
-  std::uint16_t path_cm = 0;    // straight from the base to the target
+  std::uint16_t beyond = 0;  // along them and on to the target
+  std::uint16_t path = 0;    // straight from the base to the target
   RobotId asks = nobody;        // a free robot, to become its parent
   RobotId root = nobody;        // the base,
   std::uint8_t root_age = 0;    // from so many ticks ago
@@ -45,8 +45,8 @@ template <class Visitor, class M> constexpr void visit_all(Visitor& visit, M& m)
   for (std::size_t i = 0; i < listed; ++i)
     visit.robot(below[i], "its child, then the next towards the worker, -1: none", m.below[i]);
   visit.number("links", "between it and the worker", m.links);
-  visit.number("beyond_cm", "along them and on to the target", m.beyond_cm);
-  visit.number("path_cm", "straight from the base to the target", m.path_cm);
+  visit.scaled("beyond", "along them and on to the target", m.beyond, per_range);
+  visit.scaled("path", "straight from the base to the target", m.path, per_range);
   visit.robot("asks", "a free robot that is to become its parent, -1: none", m.asks);
   visit.robot("root", "the base, -1: none is known", m.root);
   visit.number("root_age", "ticks since that said so", m.root_age);

@@ -8,20 +8,20 @@
 
 namespace banyan::rivals::chains {
 
-// Distances in C and times are those of the authors' program, in which C is 2.5 m and a tick takes 0.1 s.
+// Distances and times are those of the authors' program, in which C is 2.5 m and a tick takes 0.1 s.
 struct Params : RivalParams {
   constexpr Params() noexcept {
-    liveness_period_s = 4.0F;
-    longest_link_m = 1.44F;  // MAX
+    liveness_rounds = 40.0F;
+    longest_link = 0.72F;  // MAX
   }
-  float safe_distance_m = 1.12F;      // SAFE
-  float critical_distance_m = 1.28F;  // CRITICAL
+  float safe_distance = 0.56F;      // SAFE
+  float critical_distance = 0.64F;  // CRITICAL
   float chains_per_target = 1.0F;     // k
-  float request_timeout_s = 2.0F;
-  float ignore_s = 10.0F;
-  float gap_patience_s = 20.0F;
-  float side_offset_m = 0.6F;  // theirs: half as much
-  float free_spacing_m = 0.32F;
+  float request_rounds = 20.0F;
+  float ignore_rounds = 100.0F;
+  float gap_patience_drives = 2.0F;
+  float side_offset = 0.3F;  // theirs: half as much
+  float free_spacing = 0.16F;
 
   [[nodiscard]] int chains() const noexcept { return static_cast<int>(chains_per_target + 0.5F); }
 };

@@ -15,10 +15,10 @@ namespace banyan::rivals {
 struct OwnTarget {
   bool sent = false;
   bool known = false;
-  Vec2 target;  // m, own frame
+  Vec2 target;  // C, own frame
 
   void follow(const Orders& orders, const Carry& carry) noexcept;
-  [[nodiscard]] float distance_m() const noexcept { return sent && known ? norm(target) : 0.0F; }
+  [[nodiscard]] float away() const noexcept { return sent && known ? norm(target) : 0.0F; }
 };
 
 // Towards the target with magnitude tau, fading within the arrival distance; zero for all but workers.
@@ -27,6 +27,6 @@ struct OwnTarget {
 [[nodiscard]] Vec2 avoidance(const Neighbors& table, std::span<const Vec2> obstacles,
                              const RivalParams& params) noexcept;
 // What the motors do for u within the guard, u in units of K.
-[[nodiscard]] Velocity move(Vec2 u, const Guard& guard, const RivalParams& params) noexcept;
+[[nodiscard]] Motion move(Vec2 u, const Guard& guard, const RivalParams& params) noexcept;
 
 }  // namespace banyan::rivals

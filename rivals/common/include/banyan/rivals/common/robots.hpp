@@ -28,12 +28,11 @@ template <class Message> struct HeardOf {
 template <class State, class Message, class Ties>
 void begin_step(const RivalParams& params, State& state, const Inputs<HeardOf<Message>>& inputs,
                 const Ties& ties) noexcept {
-  const Senses& senses = inputs.senses();
   state.tally.rejected += inputs.rejected();
-  const Carry carry(senses.odometry);
-  state.neighbors.renew(state.id, inputs.heard(), carry, inputs.elapsed_ticks(), params.ticks(params.liveness_period_s),
+  const Carry carry = inputs.carry();
+  state.neighbors.renew(state.id, inputs.heard(), carry, inputs.elapsed_ticks(), whole(params.liveness_rounds),
                         params, ties);
-  state.assignment.follow(senses.orders, carry);
+  state.assignment.follow(inputs.orders(), carry);
 }
 
 // The State with which a robot begins, so far as it is the same for all rivals.
@@ -52,7 +51,7 @@ template <class State> [[nodiscard]] Report report_without_links(const State& s)
                                     : Role::connector,
           .serves = s.assignment.sent ? s.id : nobody,
           .root = s.root,
-          .want_m = s.assignment.distance_m(),
+          .want = s.assignment.away(),
           .tally = s.tally};
 }
 

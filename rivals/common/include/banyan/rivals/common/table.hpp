@@ -21,8 +21,8 @@ template <class Message> struct Table : Neighbors {
   // heard than there is room for, those of which `ties(id)` is true stay, and of the others the nearest.
   template <class Heard, class Ties>
   void renew(RobotId me, std::span<Heard> heard, const Carry& carry, int elapsed_ticks, int liveness_ticks,
-             const Platform& platform, const Ties& ties) noexcept {
-    begin(elapsed_ticks, platform.wheel_limit_m_s * platform.tick_s);
+             const Machine& machine, const Ties& ties) noexcept {
+    begin(elapsed_ticks, machine.way_in_a_round());
     for (Heard& h : heard) {
       const Message& m = *h.message;
       if (m.id == me || m.id == nobody) continue;

@@ -2,19 +2,15 @@
 // Time in ticks, for a robot whose steps need not be whole ticks.
 #pragma once
 
-#include "banyan/controller/core/inputs.hpp"
-#include "banyan/controller/core/platform.hpp"
-
 namespace banyan::rivals {
 
 // Whole ticks since the last step. What is left over counts at the next step, so that the counts of two robots
 // never differ by more than a tick, even if one steps every 1.4 ticks, say, and the other every 1.6.
 class Ticks {
  public:
-  // `senses` have passed the gate.
-  int advance(const Senses& senses, const Platform& platform) noexcept {
-    if (!(senses.elapsed_s > 0.0F)) return 1;
-    const float passed = senses.elapsed_s / platform.tick_s + left_;
+  // `rounds` since the last step (gate.hpp).
+  int advance(float rounds) noexcept {
+    const float passed = rounds + left_;
     const int whole = static_cast<int>(passed + 0.5F);
     left_ = passed - static_cast<float>(whole);
     return whole;

@@ -16,7 +16,7 @@ inline constexpr std::uint16_t not_rooted = 0xFFFF;  // as a way to the root: th
 struct Bid {
   RobotId owner = nobody;  // nobody: there is none
   RobotId other = nobody;
-  std::uint16_t length_cm = 0;    // the longest link is the most urgent
+  std::uint16_t length = 0;    // the longest link is the most urgent
   std::uint8_t serial = 0;        // the owner's bids are numbered
   std::uint8_t reach = 0;         // hops that it may still travel
   std::uint16_t lease_ticks = 0;  // for so long robots that vouch for it vouch for no other
@@ -55,7 +55,7 @@ template <class Visitor, class M> constexpr void visit_all(Visitor& visit, M& m)
     visit.robot(names[k], "the other end of a link that it keeps or offers, -1: none", m.links[k]);
   visit.robot("bid_owner", "the robot that proposes to give up a link, -1: nobody", m.bid.owner);
   visit.robot("bid_other", "to whom the link is, -1: nobody", m.bid.other);
-  visit.number("bid_length_cm", "length of that link", m.bid.length_cm);
+  visit.scaled("bid_length", "length of that link", m.bid.length, per_range);
   visit.number("bid_serial", "number of the bid among its owner's", m.bid.serial);
   visit.number("bid_reach", "hops that the bid may go on", m.bid.reach);
   visit.number("bid_lease_ticks", "for so long the sender vouches for no other bid", m.bid.lease_ticks);

@@ -8,10 +8,10 @@
 namespace banyan::rivals::link_consensus {
 
 struct Params : RivalParams {
-  float add_distance_m = 1.2F;       // r of Zavlanos & Pappas: nearer robots make a link
-  float nominate_distance_m = 1.5F;  // longer links are proposed to be given up
+  float add_distance = 0.6F;       // r of Zavlanos & Pappas: nearer robots make a link
+  float nominate_distance = 0.75F;  // longer links are proposed to be given up
   float link_gain = 0.01F;           // of the potential along a link
-  float root_silence_s = 5.0F;
+  float root_silence_rounds = 50.0F;
 };
 
 [[nodiscard]] std::span<const Parameter<Params>> parameters() noexcept;
