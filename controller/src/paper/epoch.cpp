@@ -6,7 +6,7 @@
 //
 // "Go" is the pair (epoch, phase): it only grows, and every robot passes on the largest that it hears, so a lost
 // message delays a robot but never strands it.
-#include "banyan/controller/paper/corrections.hpp"
+#include "banyan/controller/paper/paper.hpp"
 
 namespace banyan::paper {
 namespace {
@@ -16,14 +16,10 @@ void begin_epoch(Robot& robot) noexcept {
   State& self = robot.self;
   if (self.parent != nobody) robot.set_old_parent(self.parent);  // without one, the old parent is the only tie
   robot.set_parent(nobody);
-  self.committed = self.flood_done = self.centroid_known = false;
-  self.label = unknown_label;
-  self.seqno = 0;
-  self.flood_robots = self.flood_workers = 0;
-  self.label_wait_ticks = self.search_ticks = self.orphan_ticks = 0;
-  self.need = Need::no_need;
+  static_cast<OfThisTree&>(self) = {};
+  self.centroid_known = false;
   self.spare_state = SpareState::wait;
-  self.flood_parent = self.grant = self.request = self.inserted_child = self.new_root = nobody;
+  self.label_wait_ticks = self.search_ticks = self.orphan_ticks = 0;
 }
 
 }  // namespace
@@ -33,9 +29,9 @@ void listen(Robot& robot) noexcept {
   const Serial held = self.root.sequence;
   Serial epoch = self.epoch;
   Phase phase = self.phase;
-  for (int k = 0; k < robot.neighbors(); ++k) {
+  for (int k = 0; k < robot.size(); ++k) {
     const Message& m = robot.said(k);
-    if (robot.table().age(k) > 0) continue;
+    if (!robot.heard_now(k)) continue;
     if (newer(m.root, self.root)) self.root = m.root;
     if (m.epoch == epoch ? m.phase > phase : is_newer(m.epoch, epoch)) epoch = m.epoch, phase = m.phase;
   }
@@ -51,25 +47,21 @@ void enter(Robot& robot, Serial epoch, Phase phase) noexcept {
   self.phase = phase;
   self.phase_ticks = self.done_ticks = 0;
   // "the robots forget the tree from the previous iteration"; one that has no new parent would drift away (row d).
-  const bool hangs_on_old = self.parent == nobody && self.role != Role::spare && !robot.is_root();
-  if (phase >= Phase::grow_tree && !hangs_on_old) robot.set_old_parent(nobody);
-}
-
-int barrier_patience(Robot& /*robot*/) noexcept {
-  constexpr int rounds = 100;  // with motion and occlusion a count may never be reached (row 7)
-  return rounds;
+  const bool hangs_on_it = self.parent == nobody && self.role != Role::spare && !robot.is_root();
+  if (phase >= Phase::grow_tree && !hangs_on_it) robot.set_old_parent(nobody);
 }
 
 void advance(Robot& robot) noexcept {
-  constexpr int settle_ticks = 3;  // a barrier holds, and SELECT PARENT lasts, at least so long
+  constexpr int settle_ticks = 3;      // a barrier holds, and SELECT PARENT lasts, at least so long
+  constexpr int patience_ticks = 100;  // with motion and occlusion a count may never be reached (row 7)
   State& self = robot.self;
   if (!robot.is_root()) return;
-  const bool timeout = self.phase_ticks >= robot.reading.barrier_patience(robot);
-  const auto lasts = [&](bool holds) { return self.done_ticks = holds ? advanced(self.done_ticks) : std::uint16_t{0}; };
+  const bool timeout = self.phase_ticks >= patience_ticks;
+  self.done_ticks = self.flood_done ? advanced(self.done_ticks) : std::uint16_t{0};
   switch (self.phase) {
     case Phase::init: return enter(robot, 1, Phase::start_tree);
     case Phase::start_tree:
-      if (lasts(self.flood_done) >= settle_ticks || timeout) enter(robot, self.epoch, Phase::select_parent);
+      if (self.done_ticks >= settle_ticks || timeout) enter(robot, self.epoch, Phase::select_parent);
       return;
     case Phase::select_parent:  // parent selected?
       if ((robot.growth.is_complete(robot) && self.phase_ticks >= settle_ticks) || timeout)

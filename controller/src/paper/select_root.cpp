@@ -5,23 +5,21 @@
 // message, it sends an acknowledgement message to the old root, and then it expresses the centroid in its own reference
 // frame. The process is repeated until the root is the closest robot to the centroid estimate." (paper Sec. III-C)
 #include "banyan/controller/core/edge_frame.hpp"
-#include "banyan/controller/core/search.hpp"
-#include "banyan/controller/paper/corrections.hpp"
+#include "banyan/controller/paper/paper.hpp"
 
 namespace banyan::paper {
 namespace {
 
-// Closer to the centroid than the root by a margin, so that the token does not go to and fro; heard now; no worker. The
-// two will have an edge (row t), so it must not be about to leave.
+// Closer to the centroid than the root by a margin, so that the token does not go to and fro; no worker. The two will
+// have an edge (row t), so it must not be about to leave.
 int closest_to_centroid(const Robot& robot) noexcept {
   constexpr float margin = 0.025F;  // C
   const float reach = robot.reading.keeps_links ? 0.95F : 1.0F;
   const State& self = robot.self;
   const float limit = norm(self.centroid) - margin;
-  return least_of(robot.neighbors(), limit, [&](int k) {
+  return least_of(robot.size(), limit, [&](int k) {
     const Message& m = robot.said(k);
-    const bool may =
-        robot.table().age(k) == 0 && m.role != Role::worker && m.epoch == self.epoch && robot.range(k) <= reach;
+    const bool may = robot.heard_now(k) && m.role != Role::worker && m.epoch == self.epoch && robot.range(k) <= reach;
     return may ? distance(robot.position(k), self.centroid) : limit;
   });
 }
@@ -31,10 +29,10 @@ int closest_to_centroid(const Robot& robot) noexcept {
 // The new root's side. That all robots hear of its token is the acknowledgement.
 void accept_offer(Robot& robot) noexcept {
   State& self = robot.self;
-  for (int k = 0; k < robot.neighbors(); ++k) {
+  for (int k = 0; k < robot.size(); ++k) {
     const Message& m = robot.said(k);
     const RootToken offered{advanced(m.root.sequence), self.id};
-    if (robot.table().age(k) > 0 || m.new_root != self.id || m.root.id != m.id) continue;
+    if (!robot.heard_now(k) || m.new_root != self.id || m.root.id != m.id) continue;
     if (self.is_worker || !newer(offered, self.root)) continue;
     self.root = offered;
     self.centroid = from_edge_frame({m.centroid_x.value(), m.centroid_y.value()}, robot.position(k));
@@ -47,11 +45,11 @@ void accept_offer(Robot& robot) noexcept {
 }
 
 // The edge to the new root connects all robots below the old one to it: until they have parents of the new epoch, they
-// know no other way (row t). The new root may have passed its token on already, or a rival has one of the same number.
+// know no other way (row t). The new root may have passed its token on already.
 void end_offer(Robot& robot, Serial held) noexcept {
   State& self = robot.self;
   const bool taken = self.new_root != nobody && (self.root.id == self.new_root || self.root.sequence != advanced(held));
-  if (robot.reading.keeps_links && taken && self.parent == nobody && robot.table().find(self.new_root) >= 0)
+  if (robot.reading.keeps_links && taken && self.parent == nobody && robot.find(self.new_root) >= 0)
     robot.set_old_parent(self.new_root);
   self.new_root = nobody;
 }
@@ -62,18 +60,16 @@ void select_root(Robot& robot) noexcept {
   if (!robot.is_root() || self.phase != Phase::select_root) return;
   if (!self.centroid_known) self.centroid = self.q;
   self.centroid_known = true;
-  const auto start_tree = [&] { enter(robot, advanced(self.epoch), Phase::start_tree); };
   if (self.new_root != nobody) {
     robot.add_elapsed(self.offer_ticks);
     if (self.offer_ticks <= std::max(handover_ticks, whole(robot.params.liveness_rounds))) return;
     self.root.sequence = advanced(self.root.sequence, 2);  // beats an acceptance that was not heard
-    self.new_root = nobody;
-    return start_tree();
+  } else if (const int k = closest_to_centroid(robot); k >= 0) {
+    self.new_root = robot.said(k).id;
+    self.offer_ticks = 0;
+    return;
   }
-  const int k = closest_to_centroid(robot);
-  if (k < 0) return start_tree();
-  self.new_root = robot.table().id(k);
-  self.offer_ticks = 0;
+  enter(robot, advanced(self.epoch), Phase::start_tree);
 }
 
 }  // namespace banyan::paper

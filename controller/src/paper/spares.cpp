@@ -3,8 +3,7 @@
 // spare robots and non-spare robots" (paper Sec. III-F)
 //
 // An edge belongs to its child end, its owner, which lets in one spare at a time (row y).
-#include "banyan/controller/core/search.hpp"
-#include "banyan/controller/paper/corrections.hpp"
+#include "banyan/controller/paper/paper.hpp"
 
 namespace banyan::paper {
 namespace {
@@ -14,9 +13,14 @@ constexpr int answer_ticks = 14;          // enough for a question and an answer
 
 // ---- Non-spare robots: NO NEED -> NEED -> AWAIT ----
 
-bool child_in_need(const Robot& robot) noexcept {
-  return banyan::any_of(robot.children,
-                        [&](int k) { return robot.said(k).role != Role::spare && robot.said(k).need == Need::need; });
+// "either if their distance to their parent becomes smaller than the safe communication range S, or if at least one of
+// their children's state is the NEED state": smaller than S is a misprint for larger than E (row 2).
+bool needs_spare(const Robot& robot) noexcept {
+  const float E = robot.params.recruitment_distance;
+  const bool wanted = !robot.reading.asks_while_wanted || robot.self.want > 0;
+  return (wanted && robot.range(robot.parent) > E) || robot.any([&](int k) {
+    return robot.is_child(k) && robot.said(k).role != Role::spare && robot.said(k).need == Need::need;
+  });
 }
 
 void end_grant(State& self) noexcept {
@@ -27,26 +31,26 @@ void end_grant(State& self) noexcept {
 // Ends the grant when the spare has arrived, has given up, or has fallen silent.
 void follow_grant(Robot& robot) noexcept {
   State& self = robot.self;
-  const int k = robot.table().find(self.grant);
+  const int k = robot.find(self.grant);
   robot.add_elapsed(self.grant_ticks);
   if (!robot.alive(k)) return end_grant(self);
   const Message& m = robot.said(k);
-  if (m.inserted_child == self.id && m.parent != nobody && m.parent != self.id && is_ahead(robot, k)) {
+  const bool asks = m.request == self.id;
+  if (asks && m.role != Role::spare && m.parent != nobody && m.parent != self.id && is_ahead(robot, k)) {
     take_parent(robot, k);
     return end_grant(self);
   }
-  const bool gone = self.grant_ticks > answer_ticks && m.request != self.id && m.inserted_child != self.id;
-  if (gone || self.grant_ticks > robot.params.rounds(insertion_drives) + answer_ticks) end_grant(self);
+  const int limit_ticks = asks ? robot.params.rounds(insertion_drives) + answer_ticks : answer_ticks;
+  if (self.grant_ticks > limit_ticks) end_grant(self);
 }
 
 // Of the spares that ask for my edge the one nearest to its midpoint.
 RobotId best_request(const Robot& robot) noexcept {
   const Vec2 midpoint = robot.position(robot.parent) * 0.5F;
-  const int best = least_of(robot.neighbors(), not_counted, [&](int k) {
-    const bool asks = robot.said(k).request == robot.self.id && robot.alive(k) && robot.said(k).role == Role::spare;
+  return robot.id(robot.least([&](int k) {
+    const bool asks = robot.alive(k) && robot.said(k).role == Role::spare && robot.said(k).request == robot.self.id;
     return asks ? distance(robot.position(k), midpoint) : not_counted;
-  });
-  return best < 0 ? nobody : robot.table().id(best);
+  }));
 }
 
 void own_edge(Robot& robot) noexcept {
@@ -56,33 +60,34 @@ void own_edge(Robot& robot) noexcept {
   const Message& parent = robot.said(robot.parent);
   // Of its own edge: else all branches would wait for each other at the root (row c).
   const bool parent_awaits = parent.need == Need::await && parent.grant != nobody;
-  const bool needs_spare = robot.reading.is_stretched(robot) || child_in_need(robot);
   switch (self.need) {
     case Need::no_need:
-      if (needs_spare) self.need = Need::need;
-      break;
+      if (needs_spare(robot)) self.need = Need::need;
+      return;
     case Need::need:
       if (parent_awaits) self.need = Need::await;
-      else if (!needs_spare) self.need = Need::no_need;
+      else if (!needs_spare(robot)) self.need = Need::no_need;
       else if (self.phase == Phase::grow_tree) {
         self.grant = best_request(robot);
         self.grant_ticks = 0;
         if (self.grant != nobody) self.need = Need::await;
       }
-      break;
+      return;
     case Need::await:
       if (self.grant == nobody && !parent_awaits) self.need = Need::no_need;
-      break;
+      return;
   }
 }
 
-void watch_inserted_child(Robot& robot) noexcept {
+// Until the owner names it as parent, a robot that has joined keeps its request.
+void watch_owner(Robot& robot) noexcept {
   constexpr int patience_ticks = 30;
   State& self = robot.self;
-  const int k = robot.table().find(self.inserted_child);
-  const bool done = k >= 0 && robot.said(k).parent == self.id;
-  if (!done) robot.add_elapsed(self.inserted_ticks);
-  if (done || self.inserted_ticks > patience_ticks) self.inserted_child = nobody;
+  if (self.request == nobody) return;
+  const int owner = robot.find(self.request);
+  const bool named = owner >= 0 && robot.said(owner).parent == self.id;
+  if (!named) robot.add_elapsed(self.request_ticks);
+  if (named || self.request_ticks > patience_ticks) self.request = nobody;
 }
 
 // ---- Spare robots: WAIT -> EXTEND EDGE -> connector, or ADJUST POSITION ----
@@ -90,37 +95,32 @@ void watch_inserted_child(Robot& robot) noexcept {
 // "look for an edge to extend [...] a search for edges in need among their neighbors": the owner of that whose midpoint
 // is nearest; both ends must be heard.
 RobotId nearest_edge_in_need(const Robot& robot) noexcept {
-  const int best = least_of(robot.neighbors(), not_counted, [&](int k) {
+  return robot.id(robot.least([&](int k) {
     const Message& m = robot.said(k);
-    const bool in_need = robot.alive(k) && m.need == Need::need && m.role != Role::spare && m.grant == nobody &&
-                         m.parent != nobody && m.parent != robot.self.id && m.epoch == robot.self.epoch;
+    const bool open = robot.alive(k) && m.need == Need::need && m.role != Role::spare && m.grant == nobody &&
+                      m.parent != nobody && m.parent != robot.self.id && m.epoch == robot.self.epoch;
     Vec2 midpoint;
-    return in_need && edge_midpoint(robot, robot.table().id(k), midpoint) ? norm(midpoint) : not_counted;
-  });
-  return best < 0 ? nobody : robot.table().id(best);
+    return open && edge_midpoint(robot, k, midpoint) ? norm(midpoint) : not_counted;
+  }));
 }
 
-// The robot that a spare uses "as reference": the nearest of the tree, else the spare through which the tree is
-// nearest. It keeps its present one while that is as good: a robot that turns to another every tick gets nowhere.
+// "select a robot to use as reference": the nearest of the tree, else the spare through which the tree is nearest. Of
+// spares it keeps the present one, as if others were half a hop farther: one that turns to another each tick gets
+// nowhere.
 RobotId nearest_reference(const Robot& robot) noexcept {
-  int best = -1;
-  int best_hops = 0;  // in half hops: any spare but the present reference counts half a hop more
-  for (int k = 0; k < robot.neighbors(); ++k) {
+  constexpr std::pair none(2 * unreachable + 2, 0.0F);
+  return robot.id(robot.least(none, [&](int k) {
     const Message& m = robot.said(k);
-    if (!robot.alive(k)) continue;
-    const bool other = robot.table().id(k) != robot.self.reference;
-    const int hops = m.role != Role::spare ? -1 : 2 * m.tree_hops + (other ? 1 : 0);
-    if (best < 0 || hops < best_hops || (hops == best_hops && robot.range(k) < robot.range(best)))
-      best = k, best_hops = hops;
-  }
-  return best < 0 ? nobody : robot.table().id(best);
+    const int half_hops = 2 * m.tree_hops + (m.id != robot.self.reference ? 1 : 0);
+    return robot.alive(k) ? std::pair(m.role != Role::spare ? -1 : half_hops, robot.range(k)) : none;
+  }));
 }
 
 void look_for_edge(Robot& robot) noexcept {
   State& self = robot.self;
   self.reference = robot.reading.keeps_links && robot.hold < 0 ? nobody : nearest_reference(robot);
   self.request = self.phase == Phase::grow_tree ? nearest_edge_in_need(robot) : nobody;
-  if (self.request == nobody && robot.caller >= 0) self.reference = robot.table().id(robot.caller);
+  if (self.request == nobody && robot.caller >= 0) self.reference = robot.id(robot.caller);
   self.request_ticks = self.ungranted_ticks = 0;
   self.spare_state = self.request != nobody ? SpareState::wait : SpareState::adjust_position;
 }
@@ -130,8 +130,7 @@ void give_up(State& self) noexcept {
   self.spare_state = SpareState::wait;
 }
 
-// "Distance threshold to switch to connector" reached (Table I, J). Its label is the mean of both ends, so that it
-// takes its place between them in the order of the tree.
+// Its label is the mean of both ends, so that it takes its place between them in the order of the tree.
 void join_edge(Robot& robot, int owner, int parent) noexcept {
   State& self = robot.self;
   if (!is_ahead(robot, parent)) return;  // its sequence number will overtake mine
@@ -141,58 +140,50 @@ void join_edge(Robot& robot, int owner, int parent) noexcept {
   self.label = is_newer(above.seqno, self.seqno) ? label : std::min(label, self.label);  // never fall back (is_ahead)
   self.seqno = above.seqno;
   take_parent(robot, parent);
-  self.inserted_child = self.request;
-  self.inserted_ticks = 0;
   self.role = Role::connector;
-  self.childless_ticks = 0;
-  give_up(self);
+  self.spare_state = SpareState::wait;
+  self.request_ticks = self.childless_ticks = 0;
   ++self.tally.insertions;
 }
 
-// "In the EXTEND EDGE state, spare robots head for the middle of the edge to be extended", once its owner grants it.
+// "In the EXTEND EDGE state, spare robots head for the middle of the edge to be extended", once its owner grants it,
+// and switch to connector within J of it.
 void extend_edge(Robot& robot) noexcept {
   State& self = robot.self;
-  const int owner = robot.table().find(self.request);
+  const int owner = robot.find(self.request);
   Vec2 midpoint;
-  if (!robot.alive(owner) || !edge_midpoint(robot, self.request, midpoint)) return give_up(self);
-  robot.add_elapsed(self.request_ticks);
+  if (!robot.alive(owner) || !edge_midpoint(robot, owner, midpoint)) return give_up(self);
   const Message& m = robot.said(owner);
   const bool granted = m.grant == self.id;
-  self.ungranted_ticks = granted ? std::uint16_t{0} : static_cast<std::uint16_t>(self.ungranted_ticks + 1);
+  robot.add_elapsed(self.request_ticks);
+  self.ungranted_ticks = granted ? std::uint16_t{0} : advanced(self.ungranted_ticks);
   if (self.request_ticks > robot.params.rounds(insertion_drives) || self.ungranted_ticks > answer_ticks ||
       (m.grant != nobody && !granted))
     return give_up(self);
   if (!granted) return;
   self.spare_state = SpareState::extend_edge;
-  if (norm(midpoint) <= robot.params.insertion_distance) join_edge(robot, owner, robot.table().find(m.parent));
+  if (norm(midpoint) <= robot.params.insertion_distance) join_edge(robot, owner, robot.find(m.parent));
 }
 
 }  // namespace
 
-// "if their distance to their parent becomes smaller than the safe communication range S": a misprint (row 2).
-bool is_stretched(const Robot& robot) noexcept {
-  return robot.parent >= 0 && robot.range(robot.parent) > robot.params.recruitment_distance;
-}
-
-bool edge_midpoint(const Robot& robot, RobotId owner, Vec2& midpoint) noexcept {
-  const int k = robot.table().find(owner);
-  const int parent = k < 0 ? -1 : robot.table().find(robot.said(k).parent);
+bool edge_midpoint(const Robot& robot, int owner, Vec2& midpoint) noexcept {
+  const int parent = owner < 0 ? -1 : robot.find(robot.said(owner).parent);
   if (!robot.alive(parent)) return false;
-  midpoint = (robot.position(k) + robot.position(parent)) * 0.5F;
+  midpoint = (robot.position(owner) + robot.position(parent)) * 0.5F;
   return true;
 }
 
 void manage_spares(Robot& robot) noexcept {
   State& self = robot.self;
-  if (self.inserted_child != nobody) watch_inserted_child(robot);
   if (self.role != Role::spare) {
-    self.request = nobody;
+    watch_owner(robot);
     if (self.parent != nobody) own_edge(robot);
     else end_grant(self);
     return;
   }
   end_grant(self);
-  if (self.parent != nobody || robot.children.size > 0) give_up(self);  // still part of a branch
+  if (self.parent != nobody || robot.has_child()) give_up(self);  // still part of a branch
   else if (self.request != nobody) extend_edge(robot);
   else look_for_edge(robot);
 }

@@ -3,7 +3,7 @@
 // message propagates throughout the network, the robots estimate their distance from the root. This is possible because
 // of situated communication - every robot can estimate a relative vector to each of its immediate neighbors." (paper
 // Sec. III-B)
-#include "banyan/controller/paper/rooms.hpp"
+#include "banyan/controller/paper/paper.hpp"
 
 namespace banyan::paper {
 namespace {
@@ -21,14 +21,35 @@ void take_label(Robot& robot) noexcept {
   int best = -1;
   std::uint16_t label = unknown_label;
   float nearest = 1.0F;
-  for (int k = 0; k < robot.neighbors(); ++k) {
+  for (int k = 0; k < robot.size(); ++k) {
     if (!robot.alive(k) || !is_labelled(robot, k)) continue;
     nearest = std::min(nearest, robot.range(k));
     if (const std::uint16_t l = label_below(robot.said(k).label, robot.range(k)); l < label) label = l, best = k;
   }
   if (best < 0 || self.label_wait_ticks++ < (nearest > far_off ? wait_far_ticks : wait_ticks)) return;
   self.label = label;
-  self.flood_parent = robot.table().id(best);
+  self.flood_parent = robot.said(best).id;
+}
+
+// How the root learns that all robots have a label (row m; Chang 1982): a robot is done when all its neighbours have
+// one and all those below it in the flood are done. One that fell silent just before may have left.
+void echo(Robot& robot) noexcept {
+  constexpr int silence_ticks = 4;
+  State& self = robot.self;
+  std::uint32_t robots = 1;
+  std::uint32_t workers = self.is_worker ? 1 : 0;
+  self.flood_done = true;
+  for (int k = 0; k < robot.size(); ++k) {
+    const Message& m = robot.said(k);
+    if (robot.self.table.age(k) > silence_ticks) continue;
+    const bool is_below = is_labelled(robot, k) && m.flood_parent == self.id;
+    if (!is_labelled(robot, k) || (is_below && !m.flood_done)) self.flood_done = false;
+    if (!is_below) continue;
+    robots += m.flood_robots;
+    workers += m.flood_workers;
+  }
+  self.flood_robots = saturated(robots);
+  self.flood_workers = saturated(workers);
 }
 
 }  // namespace
@@ -39,35 +60,12 @@ std::uint16_t label_below(std::uint16_t label, float range) noexcept {
   return static_cast<std::uint16_t>(std::min<std::uint32_t>(label + edge, largest_label));
 }
 
-void estimate_distance_to_root(Robot& robot) noexcept {
+void start_tree(Robot& robot) noexcept {
   State& self = robot.self;
-  if (self.phase == Phase::init) return;
   // A root by hand-over keeps its label until the epoch that it opens.
-  if (!robot.is_root() && self.label == unknown_label) take_label(robot);
   if (robot.is_root() && self.phase == Phase::start_tree) self.label = 0;
-}
-
-// How the root learns that all robots have a label (row m; Chang 1982): a robot is done when all its neighbours have
-// one and all those below it in the flood are done. One that fell silent just before may have left.
-void echo(Robot& robot) noexcept {
-  constexpr int silence_ticks = 4;
-  State& self = robot.self;
-  if (self.phase != Phase::start_tree || self.label == unknown_label) return;
-  bool done = true;
-  std::uint32_t robots = 1;
-  std::uint32_t workers = self.is_worker ? 1 : 0;
-  for (int k = 0; k < robot.neighbors(); ++k) {
-    const Message& m = robot.said(k);
-    if (robot.table().age(k) > silence_ticks) continue;
-    const bool below = is_labelled(robot, k) && m.flood_parent == self.id;
-    done = done && is_labelled(robot, k) && (!below || m.flood_done);
-    if (!below) continue;
-    robots += m.flood_robots;
-    workers += m.flood_workers;
-  }
-  self.flood_done = done;
-  self.flood_robots = saturated(robots);
-  self.flood_workers = saturated(workers);
+  if (!robot.is_root() && self.phase != Phase::init && self.label == unknown_label) take_label(robot);
+  if (self.phase == Phase::start_tree && self.label != unknown_label) echo(robot);
 }
 
 }  // namespace banyan::paper

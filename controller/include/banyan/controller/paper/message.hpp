@@ -4,11 +4,10 @@
 // II-B). The fields are kept in their wire types, so what a receiver computes with is exactly what travelled.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 
-#include "banyan/controller/core/fixed_point.hpp"
 #include "banyan/controller/core/report.hpp"
-#include "banyan/controller/core/serial.hpp"
 #include "banyan/controller/core/wire.hpp"
 
 namespace banyan::paper {
@@ -17,60 +16,52 @@ namespace banyan::paper {
 struct RootToken {
   Serial sequence = 0;
   RobotId id = nobody;
-  friend constexpr bool operator==(RootToken, RootToken) noexcept = default;
+  friend bool operator==(RootToken, RootToken) noexcept = default;
 };
 constexpr bool newer(RootToken a, RootToken b) noexcept {
   return a.sequence != b.sequence ? is_newer(a.sequence, b.sequence) : a.id > b.id;
 }
 
 inline constexpr std::uint16_t unknown_label = 0xFFFF;
-inline constexpr std::uint16_t largest_label = unknown_label - 1;  // behind it there is no place for a child
+inline constexpr std::uint16_t largest_label = 0xFFFE;  // below it in the tree there is no place
 inline constexpr std::uint16_t invalid_depth = 0;
 inline constexpr std::uint8_t unreachable = 0xFF;  // hops
 inline constexpr float pull_unit = 16384.0F;       // fixed point of the pull: +-2
 inline constexpr float largest_q = 1.0e9F;         // one robot's wrong values must not overflow the sums above it
 
 // Vectors are written along the edge to the addressee (core/edge_frame.hpp): q and pull to the parent or, while there
-// is none, the old parent; the centroid to the new root.
-struct Message {
+// is none, the old parent; the centroid to the new root. What the fields mean is said below.
+struct OfThisTree {  // forgotten when a new tree begins
+  Need need = Need::no_need;
+  bool committed = false, flood_done = false;
+  std::uint16_t label = unknown_label;
+  Serial seqno = 0;
+  RobotId flood_parent = nobody, grant = nobody, request = nobody, new_root = nobody;
+  RobotCount flood_robots = 0, flood_workers = 0;
+  friend bool operator==(const OfThisTree&, const OfThisTree&) = default;
+};
+struct Message : OfThisTree {
   static constexpr std::uint8_t blocks = block::tree;
   RobotId id = nobody;
   Role role = Role::spare;
   Phase phase = Phase::init;
-  Need need = Need::no_need;
-  bool committed = false;
-  bool flood_done = false;
-  std::uint8_t tree_hops = unreachable;
-  std::uint8_t call_hops = unreachable;
+  std::uint8_t tree_hops = unreachable, call_hops = unreachable;
   Serial epoch = 0;
   RootToken root;
-  std::uint16_t label = unknown_label;
-  Serial seqno = 0;
   std::uint16_t depth = invalid_depth;  // d_i
-  RobotId parent = nobody;
-  RobotId old_parent = nobody;
-  RobotId hold = nobody;
-  RobotId flood_parent = nobody;
-  RobotCount flood_robots = 0;
-  RobotCount flood_workers = 0;
-  RobotCount subtree = 1;  // c_i - d_i + 1
-  RobotCount subtree_workers = 0;
-  RobotCount count = 0;  // c_i
+  RobotId parent = nobody, old_parent = nobody, hold = nobody;
+  RobotCount subtree = 1, subtree_workers = 0;  // c_i - d_i + 1, and the workers among them
+  RobotCount count = 0;                         // c_i
   std::uint16_t want = 0;
-  float q_x = 0.0F;
-  float q_y = 0.0F;
-  std::int16_t pull_x = 0;
-  std::int16_t pull_y = 0;
-  RobotId grant = nobody;
-  RobotId request = nobody;
-  RobotId inserted_child = nobody;
-  RobotId new_root = nobody;
-  Coordinate centroid_x;
-  Coordinate centroid_y;
+  Vec2 q;
+  std::int16_t pull_x = 0, pull_y = 0;
+  Coordinate centroid_x, centroid_y;
   friend bool operator==(const Message&, const Message&) = default;
 };
 
-template <class Visitor, class M> constexpr void visit_message(Visitor& visit, M& m) noexcept {
+template <class Visitor, class M>
+requires std::derived_from<M, Message>
+constexpr void visit_fields(Visitor& visit, M& m) noexcept {
   visit.choice("role", "0 spare, 1 connector, 2 worker, 3 root", m.role, 2, Role::root);
   visit.choice("phase", "0 init, 1 start_tree, 2 select_parent, 3 grow_tree, 4 select_root", m.phase, 3,
                Phase::select_root);
@@ -96,22 +87,15 @@ template <class Visitor, class M> constexpr void visit_message(Visitor& visit, M
   visit.count("subtree_workers", "workers among them", m.subtree_workers);
   visit.count("count", "c of Alg. 2; no rule uses it", m.count);
   visit.scaled("want", "largest remaining way of a worker below, 0: all have arrived", m.want, per_range);
-  visit.real("q_x", "q of Alg. 1, along the edge from the sender to its parent", m.q_x, largest_q);
-  visit.real("q_y", "the same, to the left of that edge", m.q_y, largest_q);
-  visit.scaled("pull_x", "u_target of the workers below, along the edge from the sender to its parent, -2 to 2",
-               m.pull_x, pull_unit);
+  visit.real("q_x", "q of Alg. 1, along the edge from the sender to its parent", m.q.x, largest_q);
+  visit.real("q_y", "the same, to the left of that edge", m.q.y, largest_q);
+  visit.scaled("pull_x", "u_target from below, along the edge to the parent, -2 to 2", m.pull_x, pull_unit);
   visit.scaled("pull_y", "the same, to the left of that edge", m.pull_y, pull_unit);
   visit.robot("grant", "the spare let into the edge to the parent, -1: nobody", m.grant);
-  visit.robot("request", "the owner of the edge a spare wants to join, -1: nobody", m.request);
-  visit.robot("inserted_child", "the robot above which the sender has just been inserted, -1: nobody",
-              m.inserted_child);
+  visit.robot("request", "the owner of the edge that the sender wants to join or has just joined", m.request);
   visit.robot("new_root", "the robot to which the root token is offered, -1: nobody", m.new_root);
-  visit.coordinate("centroid_x", "with the offer: centroid relative to that robot, along the edge to it", m.centroid_x);
+  visit.coordinate("centroid_x", "with the offer: relative to that robot, along the edge to it", m.centroid_x);
   visit.coordinate("centroid_y", "the same, to the left of that edge", m.centroid_y);
-}
-template <class Visitor> constexpr void visit_fields(Visitor& visit, Message& m) noexcept { visit_message(visit, m); }
-template <class Visitor> constexpr void visit_fields(Visitor& visit, const Message& m) noexcept {
-  visit_message(visit, m);
 }
 
 // To whom q and pull are addressed.

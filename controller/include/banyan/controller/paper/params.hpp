@@ -3,7 +3,6 @@
 #pragma once
 
 #include <span>
-#include <string_view>
 
 #include "banyan/controller/core/parameter.hpp"
 #include "banyan/controller/core/platform.hpp"
@@ -23,9 +22,8 @@ struct Params : Machine {
   // Not in the paper
   float arrival_distance = 0.1F;  // C: a worker's pull fades within this
   float avoidance_gain = 0.5F;
-  float parent_margin = 0.01F;  // C (corrected)
-  float guard_rate = 10.0F;     // per drive (corrected)
-  float speed_gain = 1.0F;      // K: speed per unit of u
+  float guard_rate = 10.0F;  // per drive (corrected)
+  float speed_gain = 1.0F;   // K: speed per unit of u
 };
 
 // The columns of Table I.
