@@ -176,7 +176,7 @@ layout = "list"
 positions_m = [[1, 0], [2, 0],
   [3, 3]]
 [mission.parameters]
-safe_range_m = 3
+safe_range = 1.5
 [[obstacles]]
 kind = "disc"
 radius_m = 1

@@ -47,7 +47,7 @@ Scenario chain(std::size_t robots, double pitch_m) {
   s.swarm.root = 0;
   s.targets = std::vector<Vec2>{{static_cast<double>(robots - 1) * pitch_m + 3.0, 0.0}};
   s.mission.time_limit_s = 1000;
-  s.mission.parameters = {{"give_up_after_s", 300.0}};  // nor does the worker leave its target to others
+  s.mission.parameters = {{"give_up_after_drives", 30.0}};  // nor does the worker leave its target to others
   return s;
 }
 
@@ -377,7 +377,7 @@ constexpr TreeAlgorithmOf<Striding> striding("striding", "for this test", outwar
 TEST(Observer, CountsEpochsBeyondTheLastNumber) {
   Scenario s = chain(6, 1.1);
   s.mission.algorithm = "outwards";
-  s.mission.parameters = {{"reconfiguration_period_s", 2.0}};
+  s.mission.parameters = {{"reconfiguration_drives", 0.2}};
   World plain(s), wrapped(s, striding);
   Observer of_plain(plain), of_wrapped(wrapped);
   after(plain, of_plain, 300);

@@ -225,7 +225,7 @@ TEST(Moments, CompleteIsWhenAllTargetsAreHeldForTheFirstTime) {
 
 TEST(Moments, ThatNeverComeLetNothingHappen) {
   Scenario s = ring("inwards", 20, 3, 4.0, 2);
-  s.mission.parameters = {{"give_up_after_s", 300.0}};
+  s.mission.parameters = {{"give_up_after_drives", 30.0}};
   s.events = {kill_at(Event::When::complete, 0.0), {.action = Freeze{World(s).targets()[0].worker}}};
   World world(s);
   run_until(world, 900);
@@ -254,7 +254,7 @@ TEST(Moments, CompleteWaitsForATreeInOnePiece) {
 
 TEST(Moments, CompleteDoesNotWaitForATargetThatWasGivenUp) {
   Scenario s = ring("inwards", 20, 2, 3.0, 2);
-  s.mission.parameters = {{"give_up_after_s", 300.0}};
+  s.mission.parameters = {{"give_up_after_drives", 30.0}};
   s.events = {kill_at(Event::When::complete, 0.0),
               {.action = Freeze{World(s).targets()[1].worker}},  // the other worker never arrives, and insists
               {.time_s = 90.0, .action = RemoveTarget{1}}};

@@ -52,7 +52,7 @@ Scenario random_scenario(const Conditions& c, std::uint64_t seed) {
   s.radio.loss = c.loss;
   s.radio.line_of_sight = c.line_of_sight;
   // Every other world rebuilds its tree all the time.
-  if (seed % 2 == 0) s.mission.parameters = {{"reconfiguration_period_s", 1.0 + 9.0 * draw(3)}};
+  if (seed % 2 == 0) s.mission.parameters = {{"reconfiguration_drives", 0.1 + 9.0 * draw(3)}};
   return s;
 }
 

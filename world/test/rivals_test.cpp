@@ -215,7 +215,7 @@ TEST(FiedlerControl, CutsNoSmallNetworkUnlessWorkersDoNotWaitForTheEstimate) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     Scenario s = ring("fiedler", 18, 3, 3.0, seed);
     EXPECT_TRUE(stays_connected(s, 900)) << seed;
-    s.mission.parameters = {{"target_gain", 1.0}, {"settling_s", 0.0}};
+    s.mission.parameters = {{"target_gain", 1.0}, {"settling_rounds", 0.0}};
     cut += stays_connected(s, 900) ? 0 : 1;
   }
   EXPECT_GT(cut, 3) << "the page says otherwise";

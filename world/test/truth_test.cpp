@@ -84,6 +84,10 @@ void expect_same(const World& here, const World& there, const std::vector<Vec2>&
   b.pull_y = a.pull_y;
   b.centroid_x = a.centroid_x;
   b.centroid_y = a.centroid_y;
+  for (auto [one, other] : {std::pair(&a.root_x, &b.root_x), {&a.root_y, &b.root_y}, {&a.task_x, &b.task_x}, {&a.task_y, &b.task_y}}) {
+    ASSERT_NEAR(one->value(), other->value(), 1.0F / per_range);
+    *other = *one;
+  }
   b.want = a.want;
   ASSERT_EQ(a, b) << "says something else";
   const TreeState& s = tree_state(here.swarm(), i);

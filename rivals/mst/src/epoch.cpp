@@ -25,7 +25,7 @@ bool meets_strangers(const Robot& robot) noexcept {
 
 bool wants_new_tree(const Robot& robot) noexcept {
   const State& self = robot.self;
-  if (self.epoch_ticks < robot.params.rounds(robot.params.least_period_drives)) return false;
+  if (self.epoch_ticks < whole(robot.params.least_period_rounds)) return false;
   if (meets_strangers(robot)) return true;
   if (!self.done) return self.failed || self.epoch_ticks > whole(robot.params.build_rounds);
   if (self.root == self.id && self.assignment.sent) return true;  // a worker is no root

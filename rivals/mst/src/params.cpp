@@ -8,9 +8,9 @@ constexpr Parameter<Params> of_mst[] = {
     {{"trigger_distance", "", "C", "mst: a tree edge longer than this asks for a new tree",
       "Shorter asks more often: the tree fits better, and constructions hold the robots up.", "mst", 0.05F, 1.0F},
      &Params::trigger_distance},
-    {{"least_period_drives", "", "drives", "mst: time between two trees", "More than a construction takes.", "mst", 0.1F,
-      360.0F},
-     &Params::least_period_drives},
+    {{"least_period_rounds", "", "rounds", "mst: time between two trees", "More than a construction takes.", "mst", 10.0F,
+      36000.0F},
+     &Params::least_period_rounds},
     {{"countdown_rounds", "", "rounds", "mst: from the first word of a new tree to its construction",
       "More than news takes through the whole network, so that all measure their links at the same time; at most 255 "
       "ticks.",
@@ -31,10 +31,8 @@ std::span<const Parameter<Params>> parameters() noexcept { return of_mst; }
 
 std::string_view fault(const Params& params) noexcept {
   if (!(params.trigger_distance < params.longest_link)) return "trigger_distance must be below longest_link";
-  if (!(params.countdown_rounds < params.least_period_drives * params.rounds_per_drive))
-    return "countdown_rounds must be below least_period_drives";
-  if (!(params.least_period_drives * params.rounds_per_drive < 65535.0F))
-    return "least_period_drives must be below 65535 rounds";
+  if (!(params.countdown_rounds < params.least_period_rounds))
+    return "countdown_rounds must be below least_period_rounds";
   return {};
 }
 

@@ -46,6 +46,8 @@ struct Coordinate {
     constexpr float steps[] = {1.0F / per_range, 4.0F / per_range, 16.0F / per_range, 64.0F / per_range};
     return static_cast<float>(bits >> 2) * steps[bits & 3];
   }
+  // Each length has one form.
+  [[nodiscard]] constexpr bool is_possible() const noexcept { return of(value()) == *this; }
   friend constexpr bool operator==(Coordinate, Coordinate) noexcept = default;
 };
 

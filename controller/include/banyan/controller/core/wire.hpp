@@ -164,6 +164,7 @@ class ByteReader {
   }
   [[gnu::always_inline]] void coordinate(const char*, const char*, Coordinate& v) noexcept {
     v.bits = take<std::int16_t>();
+    ok_ = ok_ && v.is_possible();
   }
   [[gnu::always_inline]] void real(const char*, const char*, float& v, float limit) noexcept {
     v = std::bit_cast<float>(take<std::uint32_t>());

@@ -42,10 +42,10 @@ struct HealingMessage : TreeMessage, HealingStanding, HealingNews {
 // Gossip: the longest burst of loss that the sender knows, ticks (loss.cpp). It travels in a field that only an offer
 // of the token needs, since a message has no byte left; robots that do not heal leave it 0.
 [[nodiscard]] constexpr int burst_of(const TreeMessage& m) noexcept {
-  return m.new_root == nobody ? m.centroid_x.bits : 0;
+  return m.new_root == nobody ? m.centroid_x.bits / 4 : 0;
 }
 constexpr void set_burst(TreeMessage& m, std::uint8_t ticks) noexcept {
-  if (m.new_root == nobody) m.centroid_x.bits = ticks;
+  if (m.new_root == nobody) m.centroid_x = {static_cast<std::int16_t>(4 * ticks)};
 }
 
 // The healing block, field by field (wire.hpp).
