@@ -174,14 +174,16 @@ void check_proportions(FaultList& list, const Scenario& scenario) {
                   short_text(range) + " / (" + short_text(scenario.robot.wheel_limit_m_s) + " * " +
                   short_text(scenario.tick_s) + ") = " + short_text(ticks) + " ticks, which must be 25 to 2000; " +
                   (least_s <= most_s ? "set tick_s to " + short_text(least_s) + " to " + short_text(most_s) + " s"
-                                     : "set radio.range_m or robot.wheel_limit_m_s, no tick_s fits these"));
+                                     : "set radio.range_m or robot.wheel_limit_m_s, no tick_s fits these"),
+              {"radio.range_m", "robot.wheel_limit_m_s"});
   }
   const double share = scenario.robot.radius_m / range;
   if (share < thinnest * (1.0 - rounding) || share > widest * (1.0 + rounding))
     list.fail("robot.radius_m", "is " + short_text(scenario.robot.radius_m) + " m, " + short_text(share) +
                                     " of radio.range_m = " + short_text(range) +
                                     " m; must be 0.001 to 0.17 of it, here " + short_text(thinnest * range) + " to " +
-                                    short_text(widest * range) + " m");
+                                    short_text(widest * range) + " m",
+              {"radio.range_m"});
 }
 
 // mission.time_limit_s, as it is given or as it follows.
@@ -195,6 +197,14 @@ void check_time_limit(FaultList& list, const Scenario& scenario) {
                 : "must be given when no target is away from swarm.start.center_m");
 }
 
+// The keys of the scenario's own parameters that the text names.
+std::vector<std::string> parameters_in(const std::string& text, const Scenario& scenario) {
+  std::vector<std::string> keys;
+  for (const auto& [name, value] : scenario.mission.parameters)
+    if (text.find(name) != std::string::npos) keys.push_back("mission.parameters." + name);
+  return keys;
+}
+
 void check_platform(FaultList& list, const Scenario& scenario) {
   const double reach = scenario.robot.wheel_limit_m_s * scenario.tick_s;
   if (!scenario.obstacles.empty() && reach >= scenario.robot.radius_m)
@@ -205,7 +215,7 @@ void check_platform(FaultList& list, const Scenario& scenario) {
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
     check_obstacle_body(list, scenario, element("obstacles", i) + ".size_m", scenario.obstacles[i]);
   if (const std::string text = algorithm_of(scenario).fault(setup_of(scenario)); !text.empty())
-    list.fail("mission.parameters", text);
+    list.fail("mission.parameters", text, parameters_in(text, scenario));
   if (scenario.mission.link_redundancy > 1 && !algorithm_of(scenario).knows_redundancy())
     list.fail("mission.link_redundancy", "is " + std::to_string(scenario.mission.link_redundancy) + ", but " +
                                              scenario.mission.algorithm + " keeps one path" +
@@ -311,10 +321,13 @@ void check_spacing(FaultList& list, const Scenario& scenario) {
   const double link = start.link_share * range;
   if (pitch - off < touch)
     list.fail(key, "robots do not fit: " + (random ? "the pitch" : "pitch_m -" + jitter) + " = " +
-                       short_text(pitch - off) + " m must be at least two radii, " + short_text(touch) + " m");
+                       short_text(pitch - off) + " m must be at least two radii, " + short_text(touch) + " m",
+              {"robot.radius_m"});
   if (!random && pitch + off >= range)
-    list.fail(key, "the start would not be connected: pitch_m +" + jitter + " = " + short_text(pitch + off) +
-                       " m must be below radio.range_m = " + short_text(range) + " m");
+    list.fail(key,
+              "the start would not be connected: pitch_m +" + jitter + " = " + short_text(pitch + off) +
+                  " m must be below radio.range_m = " + short_text(range) + " m",
+              {"radio.range_m"});
   if (!random && start.layout != Layout::bridge) return;
   if (link + off >= range)
     list.fail("swarm.start.link_share", "the start would not be connected: link_share * range_m" +
