@@ -314,7 +314,7 @@ void check_spacing(FaultList& list, const Scenario& scenario) {
   const bool random = start.layout == Layout::random;
   const std::string key = start.pitch_share ? "swarm.start.pitch_share" : "swarm.start.pitch_m";
   const std::string jitter = random ? "" : " 2 jitter_m";
-  const double off = random ? 0.0 : 2.0 * start.jitter_m;
+  const double off = random ? 0.0 : 2.0 * start_jitter_m(scenario);
   const double range = scenario.radio.range_m;
   const double touch = 2.0 * scenario.robot.radius_m;
   const double pitch = start_pitch_m(scenario);
@@ -401,7 +401,7 @@ void check_targets_fit(FaultList& list, const Scenario& scenario) {
     check_target_room(list, scenario, scenario.obstacles, target_key(scenario, i), "target " + std::to_string(i),
                       targets[i]);
   if (!check_events_fit(list, scenario, targets.size(), robots)) return;
-  const std::size_t needed = least_robots(targets, scenario.mission.target_tolerance_m, scenario.radio.range_m);
+  const std::size_t needed = least_robots(targets, target_tolerance_m(scenario), scenario.radio.range_m);
   if (needed > robots)
     list.warn("targets", "out of reach: no connected network of fewer than " + std::to_string(needed) +
                              " robots spans the targets at radio.range_m = " + short_text(scenario.radio.range_m) +
@@ -436,7 +436,7 @@ void check_target_room(FaultList& list, const Scenario& scenario, const std::vec
   const double room = clearance(obstacles, p);
   if (room <= 0.0) {
     list.fail(key, name + " at " + at(p) + " lies inside an obstacle");
-  } else if (room + scenario.mission.target_tolerance_m < scenario.robot.radius_m) {
+  } else if (room + target_tolerance_m(scenario) < scenario.robot.radius_m) {
     list.fail(key, name + " at " + at(p) + " is so close to an obstacle that no robot of radius " +
                        short_text(scenario.robot.radius_m) + " m gets within mission.target_tolerance_m of it");
   }
