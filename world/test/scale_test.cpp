@@ -73,7 +73,7 @@ void expect_same_at_every_scale(const Scenario& scenario, const Algorithm& algor
   }
   EXPECT_GT(world.packets_received(), 1000U);
   for (const Factors factors : {Factors{0.25, 1.0}, Factors{2.0, 1.0}, Factors{16.0, 1.0}, Factors{1.0, 0.5},
-                                Factors{1.0, 2.0}, Factors{4.0, 0.25}}) {
+                                Factors{1.0, 2.0}, Factors{4.0, 0.25}, Factors{0x1p-7, 1.0}, Factors{0x1p15, 8.0}}) {
     SCOPED_TRACE("lengths times " + std::to_string(factors.length) + ", times " + std::to_string(factors.time));
     World other(multiplied(scenario, factors), algorithm);
     ASSERT_EQ(state_of(other, factors.length), states[0]) << "at the start";
