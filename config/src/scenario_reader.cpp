@@ -66,8 +66,7 @@ std::vector<std::pair<std::string, std::string>> known_names(const AlgorithmList
     const bool nested = dot != std::string_view::npos;
     names.emplace_back(nested ? section.path.substr(0, dot) : "", nested ? section.path.substr(dot + 1) : section.path);
   }
-  for (const auto& info : algorithms.parameters())
-    if (platform_key(info.key).empty()) names.emplace_back("mission.parameters", info.key);
+  for (const auto& info : algorithms.parameters()) names.emplace_back("mission.parameters", info.key);
   return names;
 }
 
@@ -101,6 +100,19 @@ Place ScenarioReader::place_of(std::string key) const {
     const auto cut = key.find_last_of(".[");
     key.resize(cut == std::string::npos ? 0 : cut);
   }
+}
+
+Place ScenarioReader::place_of(const world::Fault& fault) const {
+  std::vector<std::string> keys{fault.key};
+  keys.insert(keys.end(), fault.with.begin(), fault.with.end());
+  std::optional<Place> first;
+  for (const std::string& key : keys) {
+    const auto found = places_.find(key);
+    if (found == places_.end()) continue;
+    if (!found->second.from_file()) return found->second;
+    if (!first) first = found->second;
+  }
+  return first ? *first : place_of(fault.key);
 }
 
 bool ScenarioReader::faulty(const std::string& key) const {
@@ -316,10 +328,6 @@ void ScenarioReader::read_parameters(const Node& node, world::Mission& mission) 
     const auto info = std::find_if(table.begin(), table.end(), [&key = name](const auto& p) { return p.key == key; });
     if (info == table.end()) {
       report_unknown(child.place, part, name);
-      continue;
-    }
-    if (const auto owner = platform_key(name); !owner.empty()) {
-      report(child.place, shown, "follows from the key " + std::string(owner) + ": set that instead");
       continue;
     }
     const Value value = read_number(child, shown, {widened(info->minimum), widened(info->maximum)}, info->unit);

@@ -68,11 +68,13 @@ bool is_listed(const Scenario& s) noexcept { return s.swarm.start.layout == Layo
 double* redundancy_of(Scenario& s) noexcept { return is_listed(s) ? nullptr : &s.swarm.redundancy; }
 bool is_bridge(const Scenario& s) noexcept { return s.swarm.start.layout == Layout::bridge; }
 bool is_random(const Scenario& s) noexcept { return s.swarm.start.layout == Layout::random; }
-double* pitch_of(Scenario& s) noexcept { return is_listed(s) ? nullptr : &s.swarm.start.pitch_m; }
+std::optional<double>* pitch_of(Scenario& s) noexcept { return is_listed(s) ? nullptr : &s.swarm.start.pitch_m; }
 std::optional<double>* pitch_share_of(Scenario& s) noexcept {
   return is_listed(s) ? nullptr : &s.swarm.start.pitch_share;
 }
-double* jitter_of(Scenario& s) noexcept { return is_listed(s) || is_random(s) ? nullptr : &s.swarm.start.jitter_m; }
+std::optional<double>* jitter_of(Scenario& s) noexcept {
+  return is_listed(s) || is_random(s) ? nullptr : &s.swarm.start.jitter_m;
+}
 double* link_share_of(Scenario& s) noexcept {
   return is_bridge(s) || is_random(s) ? &s.swarm.start.link_share : nullptr;
 }
@@ -138,7 +140,7 @@ constexpr Key<Scenario> scenario_rows[] = {
      "names the run and its output directory; letters, digits, '-', '_' and '.'", {.otherwise = "the file's name"}},
     {"description", of<&Scenario::description>, "", any_value, "what this world is about, for readers"},
     {"tick_s", of<&Scenario::tick_s>, "s", {0.001, 10.0},
-     "length of a tick; robots broadcast, decide and move once a tick", {.parameter = "tick_s"}},
+     "length of a tick; robots broadcast, decide and move once a tick"},
     {"seed", of<&Scenario::seed>, "", any_seed, "determines everything random; the same seed gives the same run",
      {.only_in_files = true}},
 
@@ -148,7 +150,7 @@ constexpr Key<Scenario> scenario_rows[] = {
      "the paper as printed (literal), or with its gaps closed (corrected); literal has an effect with outwards and "
      "inwards only"},
     {"mission.target_tolerance_m", of<&Mission::target_tolerance_m>, "m", any_length,
-     "a target is reached when its worker is this near"},
+     "a target is reached when its worker is this near", {.otherwise = "0.1 C, at least 2.84 radii"}},
     {"mission.time_limit_s", of<&Mission::time_limit_s>, "s", any_time,
      "the run ends then; 0: ten times a straight drive to the farthest target"},
     {"mission.stop_when_complete", of<&Mission::stop_when_complete>, "", any_value,
@@ -176,10 +178,11 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"swarm.start.pitch_m", by<pitch_of>, "m", some_reach,
      "distance between neighbours, within the clusters of a bridge; in a random start the least distance between "
      "any two",
-     {.not_beside = "pitch_share"}},
+     {.otherwise = "0.16 C, at least 4.55 radii", .not_beside = "pitch_share"}},
     {"swarm.start.pitch_share", by<pitch_share_of>, "", any_part,
      "the same as a share of radio.range_m; not beside pitch_m", {.otherwise = "pitch_m counts"}},
-    {"swarm.start.jitter_m", by<jitter_of>, "m", any_reach, "each robot is displaced from its point by up to this"},
+    {"swarm.start.jitter_m", by<jitter_of>, "m", any_reach, "each robot is displaced from its point by up to this",
+     {.otherwise = "0.01 C, at least 0.284 radii"}},
     {"swarm.start.link_share", by<link_share_of>, "", any_part,
      "spacing of the bridge, or longest link over which a random start grows, as a share of radio.range_m"},
     {"swarm.start.bridge_robots", by<bridge_robots_of>, "", some_robots, "robots between the two clusters"},
@@ -192,9 +195,9 @@ constexpr Key<Scenario> scenario_rows[] = {
      "holonomic"},
     {"robot.radius_m", of<&RobotModel::radius_m>, "m", some_reach, "radius of the body"},
     {"robot.wheel_distance_m", of<&RobotModel::wheel_distance_m>, "m", some_reach,
-     "distance between the wheels", {.parameter = "wheel_distance_m"}},
+     "distance between the wheels", {.otherwise = "1.497 radii"}},
     {"robot.wheel_limit_m_s", of<&RobotModel::wheel_limit_m_s>, "m/s", {1e-4, 1000.0},
-     "largest speed of a wheel", {.parameter = "wheel_limit_m_s"}},
+     "largest speed of a wheel"},
     {"robot.wheel_noise", of<&RobotModel::wheel_noise>, "", any_share,
      "sigma of the factor on each wheel's speed, drawn every tick"},
     {"robot.wheel_bias", of<&RobotModel::wheel_bias>, "", any_share,
@@ -207,17 +210,18 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"robot.max_torque_nm", of<&RobotModel::max_torque_nm>, "N m", {0.0, 1e6, true},
      "largest torque of the wheels (body box2d)"},
     {"robot.max_acceleration_m_s2", of<&RobotModel::max_acceleration_m_s2>, "m/s^2", {0.0, 1e8, true},
-     "bound on the acceleration |u| (body linear)"},
+     "bound on the acceleration |u| (body linear)", {.otherwise = "50 wheel_limit^2 / C"}},
     {"robot.dead_bodies", of<&RobotModel::dead_bodies>, "", any_value,
      "the dead stay where they are and block motion and sight; false: they vanish"},
     {"robot.proximity_m", of<&RobotModel::proximity_m>, "m", any_reach,
-     "reach of the proximity sensor, from the robot's centre to the surface of obstacles and dead bodies; 0: none"},
+     "reach of the proximity sensor, from the robot's centre to the surface of obstacles and dead bodies; 0: none",
+     {.otherwise = "0.15 C, at least 4.26 radii"}},
 
     {"radio.model", of<&RadioModel::model>, "", any_value,
      "which packets are lost within range and sight: disc, each with the same probability; bursts, many in a row; "
      "path_loss, more the farther away the sender is; one_way, between some pairs all those in one direction"},
     {"radio.range_m", of<&RadioModel::range_m>, "m", {0.01, long_range},
-     "C: two robots nearer than this hear each other", {.parameter = "communication_range_m"}},
+     "C: two robots nearer than this hear each other"},
     {"radio.line_of_sight", of<&RadioModel::line_of_sight>, "", any_value,
      "robots and obstacles in between block a packet"},
     {"radio.sight_leak", of<&RadioModel::sight_leak>, "", any_share,
@@ -277,7 +281,7 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"battery.slots", by<battery_of<&Battery::slots>>, "", {1.0, 1000.0},
         "robots that a place charges at the same time"},
     {"battery.reach_m", by<battery_of<&Battery::reach_m>>, "m", some_reach,
-     "a place charges robots no farther from it than this"},
+     "a place charges robots no farther from it than this", {.otherwise = "0.3 C, at least 8.52 radii"}},
     {"battery.charge_w", by<battery_of<&Battery::charge_w>>, "W", {0.0, 1e6, true},
         "power into each robot that is charged"},
 
@@ -286,7 +290,7 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"targets.positions_m", by<listed_targets_of>, "m", anywhere, "one [x, y] per target", {.required = true}},
     {"targets.count", of<&RingTargets::count, &RandomTargets::count>, "", {1.0, 10000.0}, "number of targets"},
     {"targets.radius_m", of<&RingTargets::radius_m, &RandomTargets::radius_m>, "m", {0.0, world_size},
-     "distance of the targets from the centre; the largest one if random"},
+     "distance of the targets from the centre; the largest one if random", {.otherwise = "1.5 C"}},
     {"targets.phase_deg", of<&RingTargets::phase_rad>, "deg", any_angle,
      "direction of the first target, counter-clockwise from the x axis"},
     {"targets.center_m", of<&RingTargets::center, &RandomTargets::center>, "m", anywhere,
@@ -347,11 +351,5 @@ std::span<const Key<Obstacle>> obstacle_keys() noexcept { return obstacle_rows; 
 std::span<const Key<Event>> event_keys() noexcept { return event_rows; }
 
 std::span<const Key<Scenario>> scenario_keys() noexcept { return scenario_rows; }
-
-std::string_view platform_key(std::string_view parameter) noexcept {
-  for (const Key<Scenario>& key : scenario_rows)
-    if (!parameter.empty() && key.terms.parameter == parameter) return key.path;
-  return {};
-}
 
 }  // namespace banyan::world

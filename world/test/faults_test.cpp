@@ -70,11 +70,11 @@ const std::vector<Case>& cases() {
        [](Scenario& s) {
          s.mission.parameters = {{"target_gain", 1e300}};
        }},
-      {"mission.parameters.tick_s", "follows from the key tick_s",
+      {"mission.parameters.tick_s", "there is no such parameter",
        [](Scenario& s) {
          s.mission.parameters = {{"tick_s", 0.1}};
        }},
-      {"mission.parameters.communication_range_m", "radio.range_m",
+      {"mission.parameters.communication_range_m", "there is no such parameter",
        [](Scenario& s) {
          s.mission.parameters = {{"communication_range_m", 2}};
        }},

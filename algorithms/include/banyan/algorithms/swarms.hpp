@@ -5,8 +5,7 @@
 #include "banyan/controller/convoy/convoy.hpp"
 #include "banyan/controller/core/swarm_of.hpp"
 #include "banyan/controller/healing/tick.hpp"
-#include "banyan/controller/inwards.hpp"
-#include "banyan/controller/outwards.hpp"
+#include "banyan/controller/paper/paper.hpp"
 
 namespace banyan {
 
@@ -23,11 +22,20 @@ struct TreeSwarm {
   static void add_to(Digest& digest, const State& s) { banyan::add_to(digest, s); }
 };
 
-template <auto step_function>
-using LiteralSwarm = TreeSwarm<TreeParams, TreeState, TreeMessage, initial_tree_state, step_function, tree_report>;
-template <auto step_function>
-using CorrectedSwarm =
-    TreeSwarm<HealingParams, HealingState, HealingMessage, initial_healing_state, step_function, healing_report>;
+// One of the paper's.
+template <const paper::Growth& growth, const paper::Reading& reading> struct PaperSwarm {
+  using Params = paper::Params;
+  using State = paper::State;
+  using Message = paper::Message;
+  using Heard = paper::Heard;
+  static State initial(RobotId id, bool worker, bool root) { return paper::initial(id, worker, root); }
+  static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) {
+    return paper::step(growth, reading, params, state, inputs);
+  }
+  static Report report(const State& state) { return paper::report(state); }
+  static void add_to(Digest& digest, const State& state) { paper::add_to(digest, state); }
+};
+
 using ConvoySwarm =
     TreeSwarm<ConvoyParams, ConvoyState, ConvoyMessage, initial_convoy_state, convoy_step, convoy_report>;
 using PoweredConvoySwarm = TreeSwarm<ConvoyParams, PoweredConvoyState, PoweredConvoyMessage, initial_powered_state,

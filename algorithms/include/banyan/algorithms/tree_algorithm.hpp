@@ -11,16 +11,12 @@
 
 namespace banyan {
 
-[[nodiscard]] std::vector<BoundParameter> bind(HealingParams& params);
 [[nodiscard]] std::vector<BoundParameter> bind(ConvoyParams& params);
 // The first fault among values that depend on each other.
-[[nodiscard]] inline std::string_view cross_fault(const HealingParams& params) noexcept {
-  const std::string_view text = tree_fault(params);
-  return text.empty() ? healing_fault(params) : text;
-}
 [[nodiscard]] inline std::string_view cross_fault(const ConvoyParams& params) noexcept {
-  const std::string_view text = cross_fault(static_cast<const HealingParams&>(params));
-  return text.empty() ? convoy_fault(params) : text;
+  for (const std::string_view text : {tree_fault(params), healing_fault(params)})
+    if (!text.empty()) return text;
+  return convoy_fault(params);
 }
 
 // An algorithm of an A (core/swarm_of.hpp) with these parameters.
