@@ -29,7 +29,7 @@ inline void speak_as(std::size_t k, int tick, TreeMessage& message) noexcept {
   message.phase = static_cast<Phase>((tick / 40) % 5);
   message.epoch = static_cast<Serial>(tick / 200);
   message.root = {1, 1};
-  message.label_cm = static_cast<std::uint16_t>(100 * k);
+  message.label = static_cast<std::uint16_t>(128 * k);
   message.committed = k % 2 == 0;
   message.depth = static_cast<std::uint16_t>(k + 1);
   message.tree_hops = 0;
@@ -83,9 +83,9 @@ std::uint64_t exercise(Output<Message> (*step)(const Params&, State&, const Inpu
     return received[k] ? &*received[k] : nullptr;
   };
   const auto move = [&](std::span<Heard> heard, const Senses& senses) {
-    const Output<Message> output = step(params, state, {heard, senses, params});
+    const Output<Message> output = step(params, state, {heard, senses, Platform{}});
     said = output.message;
-    return output.velocity;
+    return velocity_of(output.motion, Platform{});
   };
   run(state.is_worker, params.drive, say, move, digest);
   if constexpr (hashes_state) add_to(digest, state);

@@ -37,8 +37,8 @@ void hear(Output<Message> (*step)(const Params&, State&, const Inputs<Heard>&) n
     Senses senses;
     senses.orders.sent = state.is_worker;
     senses.orders.target = Vec2{1.0F, 1.0F};
-    const Output<Message> output = step(params, state, {{&heard, 1}, senses, params});
-    require(std::isfinite(output.velocity.forward_m_s) && std::isfinite(output.velocity.turn_rad_s));
+    const Output<Message> output = step(params, state, {{&heard, 1}, senses, Platform{}});
+    require(std::isfinite(output.motion.forward) && std::isfinite(output.motion.turn));
     std::array<std::uint8_t, wire_size<Message>()> wire;
     const std::size_t size = encode_fields(output.message, wire);
     require(decode_fields<Message>(std::span(wire).first(size)) == output.message);
