@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bench.hpp"
+#include "banyan/controller/tree/parent_selection.hpp"
 
 namespace banyan {
 namespace {
