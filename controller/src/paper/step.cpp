@@ -12,6 +12,7 @@ Output<Message> step(const Growth& growth, const Reading& reading, const Params&
   begin_tick(robot, inputs);
   listen(robot);        // "go"
   accept_offer(robot);  // Select Root, the new root's side
+  robot.epoch = state.epoch;
   robot.parent = robot.find(state.parent);
   robot.old_parent = robot.find(state.old_parent);
   update_role(robot);
@@ -24,12 +25,12 @@ Output<Message> step(const Growth& growth, const Reading& reading, const Params&
   reading.find_hold(robot);
   reading.call_spares(robot);
   manage_spares(robot);                                                     // Grow Tree
+  select_root(robot);                                                       // Select Root
   const Vec2 wish = state.role == Role::spare ? u_spare(robot) : u(robot);  // Robot Motion
   Guard guard;
   for (const Reading::Limit limit : {reading.guard_edges, reading.guard_links, reading.guard_obstacles})
     limit(robot, guard);
   const Vec2 v = clamped(guard.apply(clamped(wish, 1.0F) * params.speed_gain), 1.0F);
-  select_root(robot);  // Select Root
   return {written(robot), drive(v, guard, params)};
 }
 

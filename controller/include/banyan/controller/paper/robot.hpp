@@ -46,6 +46,7 @@ struct Robot {
   State& self;
   std::span<const Vec2> obstacles;  // nearest point of each within the proximity sensor's reach, own frame, C
   int elapsed_ticks;                // since the last step
+  Serial epoch = 0;                 // when the step began: select_root() may open the next
   int parent = -1, old_parent = -1;
   int hold = -1;    // without a parent: the neighbour that I stay with (row t)
   int caller = -1;  // the neighbour through which an unanswered need is nearest (row b)
@@ -64,7 +65,7 @@ struct Robot {
   }
   // A robot that has not entered this epoch yet names its parent of the last one: an old child.
   [[nodiscard]] bool is_child(int k) const noexcept {
-    return alive(k) && said(k).parent == self.id && said(k).epoch == self.epoch;
+    return alive(k) && said(k).parent == self.id && said(k).epoch == epoch;
   }
   [[nodiscard]] bool has_child() const noexcept {
     return any([&](int k) { return is_child(k); });
