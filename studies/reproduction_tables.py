@@ -8,6 +8,7 @@ Rewrites what stands between <!-- table: NAME --> and <!-- end --> in the page; 
 prints all tables. Needs nothing but Python's standard library.
 """
 import os
+import re
 import sys
 
 from tables import rows_of, table, write_page
@@ -21,6 +22,11 @@ ALGORITHMS = ["outwards", "inwards"]
 def shown(reading):
     """Convoy has nothing printed that could be read in two ways: its rows stand with `corrected`."""
     return ALGORITHMS + (["convoy"] if reading == "corrected" else [])
+
+
+def part_of(row):
+    """Its part; those of the ranges are one."""
+    return re.sub(r"^range-[0-9.]+$", "range", row["part"])
 
 
 class Statistics:
@@ -38,12 +44,12 @@ class Statistics:
     def _by_metric(rows):
         index = {}
         for row in rows:
-            index.setdefault((row["part"], row["metric"]), []).append(row)
+            index.setdefault((part_of(row), row["metric"]), []).append(row)
         return index
 
     def runs(self, part):
         """The rows of runs.csv of this part."""
-        return [row for row in rows_of(f"{self.folder}/runs.csv") if row["part"] == part]
+        return [row for row in rows_of(f"{self.folder}/runs.csv") if part_of(row) == part]
 
     def _find(self, rows, labels):
         # Axes that are not named are pooled, or do not exist in this part.

@@ -83,10 +83,11 @@ std::string targets_text(const measure::Run& run, std::size_t targets) {
 
 std::string paths_text(const measure::Run& run) {
   const std::string wanted = plural(run.link_redundancy, "disjoint path");
-  std::string text = run.redundant_time_ratio < 0.0
-                         ? wanted + " asked for"
-                         : format("%s between targets and root for %.2f %% of the time from 10 s after completion on",
-                                  wanted.c_str(), 100.0 * run.redundant_time_ratio);
+  std::string text =
+      run.redundant_time_ratio < 0.0
+          ? wanted + " asked for"
+          : format("%s between targets and root for %.2f %% of the time from a drive after completion on",
+                   wanted.c_str(), 100.0 * run.redundant_time_ratio);
   text += format("; %u companions, with them %.2f times the bound of %u", run.companions, run.redundancy_ratio,
                  run.redundancy_bound);
   if (!run.single_targets.empty()) text += "; in the end fewer to targets " + run.single_targets;
@@ -101,7 +102,7 @@ std::string lost_time_text(const measure::Run& run) {
                 100.0 * unheld, 100.0 * run.unheld_time_ratio_by_death);
 }
 
-std::string deaths_text(const measure::Run& run) {
+std::string deaths_text(const measure::Run& run, double drive_s) {
   std::string text =
       format("%u of %s died, the last at %.1f s; ", run.deaths, plural(run.robots, "robot").c_str(), run.last_death_s);
   if (run.held_again_s >= 0.0)
@@ -109,7 +110,7 @@ std::string deaths_text(const measure::Run& run) {
                    run.held_again_s);
   text += lost_time_text(run);
   if (run.recovered) return text + format("whole again %.1f s later", run.recovery_time_s);
-  const double watched_s = std::min(run.time_s - run.last_death_s, measure::recovery_limit_s);
+  const double watched_s = std::min(run.time_s - run.last_death_s, measure::recovery_limit_drives * drive_s);
   text += format("not whole again in the %.1f s after it", watched_s);
   return run.survivors_suffice ? text : text + format("; the %u left are too few for the targets", run.survivors);
 }
@@ -166,7 +167,7 @@ std::string summary_text(const record::RunRow& row, const Configuration& configu
   if (!run.complete) text += summary_line("targets", targets_text(run, extras.targets));
   if (run.link_redundancy > 1) text += summary_line("paths", paths_text(run));
   if (scenario.battery.on()) text += summary_line("charge", power_text(run));
-  if (run.deaths > 0) text += summary_line("deaths", deaths_text(run));
+  if (run.deaths > 0) text += summary_line("deaths", deaths_text(run, world::drive_s(scenario)));
   text += summary_line("work", work_text(run));
   text += summary_line("radio", format("%.0f bytes per robot and second", run.bytes_per_robot_s));
   if (run.rejected > 0) text += summary_line("refused", refused_text(run));

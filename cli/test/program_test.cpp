@@ -196,8 +196,8 @@ TEST_F(Program, RefusesBadValuesByOption) {
   };
   bad("radio.los=true", "radio.los: there is no such key; did you mean radio.loss?");
   bad("radio.loss=high", "radio.loss: must be a number (0 to 1), not the text \"high\"");
-  bad("radio.range_m=nan", "radio.range_m: is nan; allowed: 0.05 to 100 m");
-  bad("radio.range_m=inf", "radio.range_m: is inf; allowed: 0.05 to 100 m");
+  bad("radio.range_m=nan", "radio.range_m: is nan; allowed: 0.01 to 100000 m");
+  bad("radio.range_m=inf", "radio.range_m: is inf; allowed: 0.01 to 100000 m");
   bad("targets.radius_m=-1", "targets.radius_m: is -1; allowed: 0 to");
   bad("swarm.robots=0", "swarm.robots: is 0; allowed: 2 to 65535");
   bad("swarm.robots=2", "swarm.robots: 2 robots cannot serve 2 targets");
@@ -397,7 +397,7 @@ TEST_F(Program, ProgressAfterTheLimitSaysSo) {
   // Its targets are out of reach, so the run waits for a recovery that cannot be.
   write("late.toml",
         "[mission]\ntime_limit_s = 0.1\n[swarm]\nrobots = 3000\n[swarm.start]\npitch_m = 0.9\n"
-        "[targets]\nradius_m = 900.0\n[[events]]\nkind = \"die\"\nrobot = 5\ntime_s = 0.0\n");
+        "[targets]\nradius_m = 390.0\n[[events]]\nkind = \"die\"\nrobot = 5\ntime_s = 0.0\n");
   const pid_t child = start({"run", "late.toml", "--no-record", "--threads", "1", "--out", "o"});
   const std::string wanted = " s, after its limit of 0.1 s, 0 of 3 targets reached";
   for (int k = 0; k < 12'000 && !has(read("stderr.txt"), wanted); ++k) std::this_thread::sleep_for(10ms);
@@ -500,24 +500,17 @@ TEST_F(Program, AlgorithmsAreListedWithTheirParameters) {
   EXPECT_TRUE(tau.empty());
 }
 
-// Which lengths follow the radio is each algorithm's own choice: Table I's do not, convoy's and the rivals' do.
-TEST_F(Program, AlgorithmsSayWhatAParameterMayBeAndWhatItGrowsWith) {
-  const auto text = run({"algorithms"}).out;
-  EXPECT_TRUE(has(
-      text, "; 0.05 to 100, grows with mission.scale (outwards, inwards), grows with C and mission.scale (convoy)\n"))
-      << text;
-  EXPECT_TRUE(has(run({"algorithms", "convoy"}).out, "; 0.05 to 100, grows with C and mission.scale\n"));
-
-  std::map<std::string, std::string> scaling{{"safe_range_m", "grows with C and mission.scale"},
-                                             {"clearance", "in units of C, in metres never less than for C = 2 m"},
-                                             {"target_gain", ""}};
+TEST_F(Program, AlgorithmsSayWhatAParameterMayBeAndWhetherItGrowsWithTheBody) {
+  const auto text = run({"algorithms", "convoy"}).out;
+  EXPECT_TRUE(has(text, "; 0 to 1, more for larger bodies\n")) << text;
+  std::map<std::string, bool> grows{{"safe_range", false}, {"clearance", true}, {"target_gain", false}};
   const auto list = json::parse(run({"algorithms", "convoy", "--json"}).out);
   for (const auto& row : list[0]["parameters"])
-    if (const auto own = scaling.find(row["key"]); own != scaling.end()) {
-      EXPECT_EQ(row["scaling"], own->second) << row["key"];
-      scaling.erase(own);
+    if (const auto own = grows.find(row["key"]); own != grows.end()) {
+      EXPECT_EQ(row["grows_with_body"], own->second) << row["key"];
+      grows.erase(own);
     }
-  EXPECT_TRUE(scaling.empty());
+  EXPECT_TRUE(grows.empty());
 }
 
 // Two algorithms may mean different things by one key.

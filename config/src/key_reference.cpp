@@ -74,7 +74,6 @@ void add_rows(std::vector<KeyRow>& rows, std::string_view section, std::span<con
 
 void add_parameter_rows(std::vector<KeyRow>& rows, const AlgorithmList& algorithms) {
   for (const auto& info : algorithms.parameters()) {
-    if (!platform_key(info.key).empty()) continue;
     KeyRow row;
     row.path = "mission.parameters." + std::string(info.key);
     row.type = type_name(Type::number);

@@ -66,8 +66,7 @@ std::vector<std::pair<std::string, std::string>> known_names(const AlgorithmList
     const bool nested = dot != std::string_view::npos;
     names.emplace_back(nested ? section.path.substr(0, dot) : "", nested ? section.path.substr(dot + 1) : section.path);
   }
-  for (const auto& info : algorithms.parameters())
-    if (platform_key(info.key).empty()) names.emplace_back("mission.parameters", info.key);
+  for (const auto& info : algorithms.parameters()) names.emplace_back("mission.parameters", info.key);
   return names;
 }
 
@@ -79,6 +78,11 @@ constexpr Foreign foreign_keys[] = {
     {"worlds", "a file for tuning, which banyan tune reads"}, {"bounds", "a file for tuning, which banyan tune reads"},
     {"scenario", "a study, which banyan study reads"},        {"axes", "a study, which banyan study reads"},
     {"parts", "a study, which banyan study reads"},
+};
+
+// Keys that were, and what is written in their place.
+constexpr Foreign removed_keys[] = {
+    {"mission.scale", "radio.range_m scales the lengths of every algorithm: set that, and leave this out"},
 };
 
 }  // namespace
@@ -268,6 +272,9 @@ void ScenarioReader::require(const Part& part, std::span<const Key<Owner>> keys,
 }
 
 void ScenarioReader::report_unknown(const Place& place, const Part& part, const std::string& name) {
+  for (const Foreign& removed : removed_keys)
+    if (removed.key == join(part.shown, name))
+      return report(place, std::string(removed.key), "there is no such key any more: " + std::string(removed.means));
   const auto known = known_names(algorithms_);
   std::vector<std::string_view> here, elsewhere;
   std::vector<std::string> elsewhere_paths;
@@ -308,10 +315,6 @@ void ScenarioReader::read_parameters(const Node& node, world::Mission& mission) 
     const auto info = std::find_if(table.begin(), table.end(), [&key = name](const auto& p) { return p.key == key; });
     if (info == table.end()) {
       report_unknown(child.place, part, name);
-      continue;
-    }
-    if (const auto owner = platform_key(name); !owner.empty()) {
-      report(child.place, shown, "follows from the key " + std::string(owner) + ": set that instead");
       continue;
     }
     const Value value = read_number(child, shown, {widened(info->minimum), widened(info->maximum)}, info->unit);

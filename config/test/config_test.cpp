@@ -113,6 +113,12 @@ TEST(Config, DefaultsAreTheScenariosOwn) {
   EXPECT_EQ(std::get<world::RingTargets>(s.targets).count, 2U);
 }
 
+TEST(Config, AKeyThatWasSaysWhatIsWrittenInItsPlace) {
+  const auto loaded =
+      parse_configuration("w.toml", "[mission]\nscale = 0.5\n[targets]\nlayout = \"ring\"\n", algorithms());
+  EXPECT_TRUE(says(loaded, "w.toml:2: error: mission.scale: there is no such key any more: radio.range_m scales"));
+}
+
 TEST(Config, EveryFaultIsReportedAtOnceWithItsLine) {
   const auto loaded = parse(R"(nme = "x"
 seed = -1
@@ -142,18 +148,19 @@ kind = "die"
 )");
   EXPECT_TRUE(says(loaded, "w.toml:1: error: nme: there is no such key; did you mean name?"));
   EXPECT_TRUE(says(loaded, "w.toml:2: error: seed: is -1; allowed: 0 to"));
-  EXPECT_TRUE(says(loaded, "w.toml:3: error: tick_s: is nan; allowed: 0.01 to 1 s"));
+  EXPECT_TRUE(says(loaded, "w.toml:3: error: tick_s: is nan; allowed: 0.001 to 10 s"));
   EXPECT_TRUE(says(loaded, "w.toml:5: error: mission.algorithm: must be \"outwards\""));
   EXPECT_TRUE(says(loaded, "did you mean \"outwards\"?"));
-  EXPECT_TRUE(says(loaded,
-                   "w.toml:6: error: mission.target_tolerance_m: must be a number (above 0, at most 10000 m), not the "
-                   "text \"near\""));
+  EXPECT_TRUE(
+      says(loaded,
+           "w.toml:6: error: mission.target_tolerance_m: must be a number (above 0, at most 100000000 m), not the "
+           "text \"near\""));
   EXPECT_TRUE(says(loaded,
                    "w.toml:8: error: mission.parameters.target_gian: there is no such key; did you mean "
                    "mission.parameters.target_gain?"));
-  EXPECT_TRUE(says(loaded, "w.toml:9: error: mission.parameters.tick_s: follows from the key tick_s"));
+  EXPECT_TRUE(says(loaded, "w.toml:9: error: mission.parameters.tick_s: there is no such key; did you mean tick_s?"));
   EXPECT_TRUE(says(loaded, "w.toml:11: error: swarm.robots: is 0; allowed: 2 to 65535"));
-  EXPECT_TRUE(says(loaded, "w.toml:13: error: radio.range_m: is -inf; allowed: 0.05 to 100 m"));
+  EXPECT_TRUE(says(loaded, "w.toml:13: error: radio.range_m: is -inf; allowed: 0.01 to 100000 m"));
   EXPECT_TRUE(says(loaded, "w.toml:14: error: radio.loss: is 1.5; allowed: 0 to 1"));
   EXPECT_TRUE(says(loaded, "w.toml:15: error: radio.line_of_sight: must be true or false, not the number 1"));
   EXPECT_TRUE(says(loaded, "w.toml:16: error: radio.latency_ticks: must be a whole number"));
@@ -176,7 +183,7 @@ layout = "list"
 positions_m = [[1, 0], [2, 0],
   [3, 3]]
 [mission.parameters]
-safe_range = 1.5
+safe_range = 0.99
 [[obstacles]]
 kind = "disc"
 radius_m = 1
@@ -189,7 +196,7 @@ robot = 40
   EXPECT_TRUE(says(loaded, "w.toml:2: error: swarm.robots: 2 robots cannot serve 3 targets"));
   EXPECT_TRUE(says(loaded, "w.toml:4: error: swarm.start.pitch_m: robots do not fit"));
   EXPECT_TRUE(says(loaded, "w.toml:7: error: targets.positions_m[1]: target 1 at (2, 0) lies inside an obstacle"));
-  EXPECT_TRUE(says(loaded, "w.toml:9: error: mission.parameters: safe_range_m (S) must be below"));
+  EXPECT_TRUE(says(loaded, "w.toml:9: error: mission.parameters: safe_range (S) must be below"));
   EXPECT_TRUE(says(loaded, "w.toml:18: error: events[0].robot: there is no robot 40"));
 }
 

@@ -37,7 +37,7 @@ TEST(Config, ARowSaysWithWhatTheKeyAppliesAndWhatHoldsWithoutIt) {
   EXPECT_EQ(rows["targets.positions_m"].fallback, "required");
   EXPECT_EQ(rows["targets.center_m"].fallback, "[0, 0]");
   EXPECT_EQ(rows["battery.places_m"].fallback, "[]");
-  EXPECT_EQ(rows["radio.range_m"].allowed, "0.05 to 100 m");
+  EXPECT_EQ(rows["radio.range_m"].allowed, "0.01 to 100000 m");
   EXPECT_EQ(rows["radio.loss"].when, "");
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // One robot on a workbench: its neighbours stand where a test puts them and say what it makes them
-// say, and single rooms of the controller are called on it.
+// say, and single rooms of the controller are called on it. Places are in C.
 #pragma once
 
 #include <array>
 #include <deque>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "banyan/controller/convoy/convoy.hpp"
@@ -15,6 +16,7 @@
 #include "banyan/controller/inwards.hpp"
 #include "banyan/controller/outwards.hpp"
 #include "banyan/controller/tree/tree_index.hpp"
+#include "test_platform.hpp"
 
 namespace banyan {
 
@@ -102,13 +104,13 @@ template <class Kind> class BenchOf {
     return n.message;
   }
   // A connector of the tree, not far from the root, with a label and a sequence number.
-  Message& put_connector(RobotId id, Vec2 position, std::uint16_t label_cm, std::uint16_t seqno) {
+  Message& put_connector(RobotId id, Vec2 position, std::uint16_t label, std::uint16_t seqno) {
     Message& m = put(id, position);
     m.role = Role::connector;
     m.parent = 9;
     m.depth = 2;
     m.tree_hops = 0;
-    m.label_cm = label_cm;
+    m.label = label;
     m.seqno = seqno;
     return m;
   }
@@ -123,7 +125,7 @@ template <class Kind> class BenchOf {
   void move(RobotId id, Vec2 position) { neighbors_.at(id).position = position; }
   void silence(RobotId id) { neighbors_.erase(id); }
 
-  // To a target at that place, from now on; its own frame.
+  // To a target at that place, from now on; its own frame, C.
   void send(Vec2 target) {
     orders.sent = true;
     orders.target = target;
@@ -131,10 +133,10 @@ template <class Kind> class BenchOf {
   void call_back() { orders = {}; }
 
   // Packets of one tick go into the table, orders are followed and neighbours indexed, as a step does it.
-  // No more obstacles than the gate lets pass: the robot refers to them here.
   Robot tick(const Odometry& odometry = {}) {
     listen();
-    const Inputs<Heard> inputs(heard_, senses(odometry), params);
+    const Inputs<Heard>& inputs =
+        *inputs_.emplace_back(std::make_shared<Inputs<Heard>>(heard_, senses(odometry), test_platform));
     Robot robot = Kind::robot(params, state, inputs, spaces_.emplace_back(inputs));
     begin_tick(robot, inputs);
     index_neighbors(robot);
@@ -142,7 +144,7 @@ template <class Kind> class BenchOf {
   }
   Output<Message> step(const Odometry& odometry = {}) {
     listen();
-    return Kind::step(params, state, {heard_, senses(odometry), params});
+    return Kind::step(params, state, {heard_, senses(odometry), test_platform});
   }
   Output<Message> steps(int count) {
     Output<Message> output;
@@ -170,14 +172,16 @@ template <class Kind> class BenchOf {
   }
   std::map<RobotId, Neighbor> neighbors_;
   std::vector<Heard> heard_;
-  std::deque<Workspace> spaces_;  // one for each robot
+  // What robots of single rooms refer to, for each of them
+  std::vector<std::shared_ptr<const Inputs<Heard>>> inputs_;
+  std::deque<Workspace> spaces_;
 };
 
 using Bench = BenchOf<Outwards>;
 using ConvoyBench = BenchOf<Convoy>;
 
 // A member of the tree in GROW TREE, epoch 1, with robot 9 as root.
-template <class Kind = Outwards> BenchOf<Kind> grown() {
+template <class Kind = Convoy> BenchOf<Kind> grown() {
   BenchOf<Kind> bench;
   bench.state.epoch = 1;
   bench.state.phase = Phase::grow_tree;
@@ -185,15 +189,15 @@ template <class Kind = Outwards> BenchOf<Kind> grown() {
   return bench;
 }
 
-// A root with its centroid at x = 2, and neighbour 5 on the way there.
-inline Bench handing_over() {
-  Bench bench = grown();
+// A root with its centroid at x = 1, and neighbour 5 on the way there.
+template <class Kind = Convoy> BenchOf<Kind> handing_over() {
+  BenchOf<Kind> bench = grown<Kind>();
   bench.state.root = {1, 1};
   bench.state.role = Role::root;
   bench.state.phase = Phase::select_root;
-  bench.state.centroid = {2, 0};
+  bench.state.centroid = {1, 0};
   bench.state.centroid_known = true;
-  bench.put(5, {1.0F, 0});
+  bench.put(5, {0.5F, 0}).role = Role::connector;
   return bench;
 }
 

@@ -31,7 +31,7 @@ struct Noise {
   }
   std::uint16_t word(std::uint32_t below) { return static_cast<std::uint16_t>(next() % below); }
   std::int16_t signed_word() { return static_cast<std::int16_t>(word(65536)); }
-  float meters(float limit) { return limit * (static_cast<float>(next() % 20001) * 1e-4F - 1.0F); }
+  float length(float limit) { return limit * (static_cast<float>(next() % 20001) * 1e-4F - 1.0F); }
 };
 
 // What a robot may hear, sane or not, as long as it passes the wire.
@@ -45,7 +45,7 @@ void babble(Noise& noise, std::uint32_t robots, TreeMessage& m) {
   m.committed = noise.word(2) != 0;
   m.epoch = noise.word(4);
   m.root = {noise.word(3), noise.word(robots)};
-  m.label_cm = noise.next() % 4 == 0 ? unknown_label : noise.word(65535);
+  m.label = noise.next() % 4 == 0 ? unknown_label : noise.word(65535);
   m.seqno = noise.word(100);
   m.depth = noise.word(8);
   m.tree_hops = static_cast<std::uint8_t>(noise.word(256));
@@ -55,9 +55,10 @@ void babble(Noise& noise, std::uint32_t robots, TreeMessage& m) {
   m.flood_robots = noise.word(65535);
   m.subtree = noise.word(65535);
   m.count = noise.word(65535);
-  for (float* v : {&m.q_x_m, &m.q_y_m}) *v = noise.meters(1e9F);
-  for (std::int16_t* v : {&m.pull_x, &m.pull_y, &m.centroid_x_cm, &m.centroid_y_cm}) *v = noise.signed_word();
-  m.want_cm = noise.word(65535);
+  for (float* v : {&m.q_x, &m.q_y}) *v = noise.length(1e9F);
+  for (std::int16_t* v : {&m.pull_x, &m.pull_y}) *v = noise.signed_word();
+  for (Coordinate* v : {&m.centroid_x, &m.centroid_y}) v->bits = noise.signed_word();
+  m.want = noise.word(65535);
 }
 void babble(Noise& noise, std::uint32_t robots, HealingMessage& m) {
   babble(noise, robots, static_cast<TreeMessage&>(m));
@@ -66,14 +67,14 @@ void babble(Noise& noise, std::uint32_t robots, HealingMessage& m) {
   m.root_size = noise.word(20);
   m.heartbeat = noise.word(65535);
   m.task_beat = noise.word(65535);
-  for (std::int16_t* v : {&m.root_x_cm, &m.root_y_cm, &m.task_x_cm, &m.task_y_cm}) *v = noise.signed_word();
+  for (Coordinate* v : {&m.root_x, &m.root_y, &m.task_x, &m.task_y}) v->bits = noise.signed_word();
 }
 void babble(Noise& noise, std::uint32_t robots, ConvoyMessage& m) {
   babble(noise, robots, static_cast<HealingMessage&>(m));
   for (RobotId* id : {&m.warned, &m.above, &m.below, &m.task_host}) *id = noise.word(robots);
   m.child_count = static_cast<std::uint8_t>(noise.word(256));
   m.pinned = noise.word(2) != 0;
-  for (std::int16_t* v : {&m.hinge_x_cm, &m.hinge_y_cm}) *v = noise.signed_word();
+  for (Coordinate* v : {&m.hinge_x, &m.hinge_y}) v->bits = noise.signed_word();
 }
 
 // What packets do: their messages live as long as this.
@@ -84,15 +85,16 @@ template <class Message, std::size_t capacity> struct Crowd {
     for (std::size_t k = 0; k < count; ++k) {
       messages[k] = {};
       babble(noise, robots, messages[k]);
-      heard[k] = {&messages[k], {noise.meters(2.0F), noise.meters(2.0F)}};
+      heard[k] = {&messages[k], {noise.length(1.0F), noise.length(1.0F)}};
     }
     return std::span(heard).first(count);
   }
 };
 
-bool within_limits(const Velocity& v, const Platform& platform) {
-  const WheelSpeeds wheels = wheel_speeds(v, platform.wheel_distance_m);
-  const float limit = platform.wheel_limit_m_s + 1e-5F;
+bool within_limits(const Motion& motion) {
+  const Velocity v = velocity_of(motion, test_platform);
+  const WheelSpeeds wheels = wheel_speeds(v, test_platform.wheel_distance_m);
+  const float limit = test_platform.wheel_limit_m_s + 5e-6F;
   return std::fabs(wheels.left_m_s) <= limit && std::fabs(wheels.right_m_s) <= limit &&
          v.sideways_m_s == 0.0F;  // false for NaN too
 }
@@ -114,16 +116,16 @@ TEST(Step, StandsNonsenseWithoutTheHeap) {
         sent = noise.word(2) != 0;
         state = Kind::initial(1, sent, noise.word(5) == 0);
       }
-      const Vec2 target{noise.meters(9.0F), noise.meters(9.0F)};
-      const std::array obstacles{Vec2{noise.meters(0.3F), noise.meters(0.3F)}};
-      const Senses senses{.odometry = {noise.meters(0.02F), 0, noise.meters(0.3F)},
+      const Vec2 target{noise.length(4.5F), noise.length(4.5F)};
+      const std::array obstacles{Vec2{noise.length(0.15F), noise.length(0.15F)}};
+      const Senses senses{.odometry = {noise.length(0.01F), 0, noise.length(0.3F)},
                           .orders = {sent, sent ? std::optional(target) : std::nullopt},
                           .obstacles = std::span(obstacles).first(noise.word(2))};
       const auto before = state;
       const long start = allocations;
-      const auto output = Kind::step(params, state, {heard, senses, params});
+      const auto output = Kind::step(params, state, {heard, senses, test_platform});
       taken += allocations - start;
-      bad_wheels += within_limits(output.velocity, params) ? 0 : 1;
+      bad_wheels += within_limits(output.motion) ? 0 : 1;
       bad_messages += over_the_wire(output.message) == output.message ? 0 : 1;
       steps_back += state.epoch < before.epoch || (state.epoch == before.epoch && state.phase < before.phase) ||
                             newer(before.root, state.root)
@@ -153,15 +155,15 @@ TEST(Step, IsAPureFunctionOfItsArguments) {
     auto a = Kind::initial(1, false, false);
     auto b = a;
     const auto params = Kind::defaults();
-    const Senses senses{.odometry = {0.01F, 0, 0.1F}};
+    const Senses senses{.odometry = {0.005F, 0, 0.1F}};
     for (int t = 0; t < 300; ++t) {
       const auto heard = crowd.speak(noise, 20, 30);
       auto again = crowd.heard;  // a step may work on what it is given
-      const auto x = Kind::step(params, a, {heard, senses, params});
-      const auto y = Kind::step(params, b, {again, senses, params});
+      const auto x = Kind::step(params, a, {heard, senses, test_platform});
+      const auto y = Kind::step(params, b, {again, senses, test_platform});
       ASSERT_EQ(x.message, y.message);
-      ASSERT_EQ(x.velocity.forward_m_s, y.velocity.forward_m_s);
-      ASSERT_EQ(x.velocity.turn_rad_s, y.velocity.turn_rad_s);
+      ASSERT_EQ(x.motion.forward, y.motion.forward);
+      ASSERT_EQ(x.motion.turn, y.motion.turn);
       ASSERT_EQ(hash(a), hash(b));
     }
   });
@@ -179,21 +181,21 @@ TEST(Step, TheHashSeesEveryChange) {
   changed(s.epoch, std::uint16_t{3});
   changed(s.phase, Phase::grow_tree);
   changed(s.seqno, std::uint16_t{3});
-  changed(s.label_cm, std::uint16_t{3});
+  changed(s.label, std::uint16_t{3});
   changed(s.parent, RobotId{3});
   changed(s.old_parent, RobotId{3});
-  changed(s.q, Vec2{1, 0});
-  changed(s.centroid, Vec2{1, 0});
+  changed(s.q, Vec2{0.5F, 0});
+  changed(s.centroid, Vec2{0.5F, 0});
   changed(s.request, RobotId{3});
   changed(s.grant, RobotId{3});
   changed(s.serves, RobotId{3});
   changed(s.news_gap, std::uint16_t{3});
-  changed(s.root_at, Vec2{1, 0});
-  changed(s.detour.contact, Vec2{1, 0});
+  changed(s.root_at, Vec2{0.5F, 0});
+  changed(s.detour.contact, Vec2{0.5F, 0});
   changed(s.task_count, std::uint8_t{1});
   changed(s.lead_to, RobotId{3});
   changed(s.shed, RobotId{3});
-  changed(s.short_want_cm, std::uint16_t{3});
+  changed(s.short_want, std::uint16_t{3});
   changed(s.plan_steps, std::uint8_t{3});
   changed(s.called_ticks, std::uint8_t{3});
   changed(s.detour.again, true);
@@ -206,9 +208,9 @@ TEST(Step, TheHashSeesEveryChange) {
 }
 
 TEST(Step, MembersThatAreHeardLetALoneRobotBegin) {
-  Bench bench;
+  ConvoyBench bench;
   EXPECT_EQ(bench.steps(20).message.phase, Phase::init) << "nothing heard, nothing begun";
-  bench.put(9, {1.0F, 0});
+  bench.put(9, {0.5F, 0});
   bench.say(9).epoch = 1;
   bench.say(9).phase = Phase::start_tree;
   EXPECT_EQ(bench.step().message.phase, Phase::start_tree);
@@ -224,7 +226,7 @@ struct Readings {
   Senses senses;
 };
 
-// A member of a grown tree whose root, two metres behind, is heard every tick and counts; sent to a target.
+// A member of a grown tree whose root, behind it, is heard every tick and counts; sent to a target.
 template <class Kind> struct Sensing {
   static constexpr RobotId root_id = 9;
   typename Kind::Params params = Kind::defaults();
@@ -238,18 +240,18 @@ template <class Kind> struct Sensing {
     root.root = state.root = {1, root_id};
     root.epoch = state.epoch = 1;
     root.phase = state.phase = Phase::grow_tree;
-    root.label_cm = 0;
+    root.label = 0;
     root.depth = 1;
     root.committed = true;
     root.tree_hops = 0;
-    state.label_cm = 150;
+    state.label = 192;
     state.parent = root_id;
     state.committed = true;
   }
   // What sensors that work say.
   [[nodiscard]] static Readings sane() {
-    Readings r{.position = {-1.5F, 0.0F}, .obstacles = {{0.5F, 0.5F}}, .senses = {}};
-    r.senses.orders = {true, Vec2{3.0F, 0.5F}};
+    Readings r{.position = {-0.75F, 0.0F}, .obstacles = {{0.25F, 0.25F}}, .senses = {}};
+    r.senses.orders = {true, Vec2{1.5F, 0.25F}};
     return r;
   }
   Output<typename Kind::Message> step(Readings& r) {
@@ -259,7 +261,7 @@ template <class Kind> struct Sensing {
     }
     Heard heard{&root, r.position, r.age_s};
     r.senses.obstacles = r.obstacles;
-    return Kind::step(params, state, {{&heard, 1}, r.senses, params});
+    return Kind::step(params, state, {{&heard, 1}, r.senses, test_platform});
   }
   Output<typename Kind::Message> steps(int count) {
     Output<typename Kind::Message> output;
@@ -269,8 +271,8 @@ template <class Kind> struct Sensing {
   }
 };
 
-template <class Message> bool is_sound(const Output<Message>& output, const Platform& platform) {
-  return within_limits(output.velocity, platform) && over_the_wire(output.message) == output.message;
+template <class Message> bool is_sound(const Output<Message>& output) {
+  return within_limits(output.motion) && over_the_wire(output.message) == output.message;
 }
 
 RC_GTEST_PROP(Sensors, WhateverTheySayVelocityAndMessageAreSound, ()) {
@@ -284,10 +286,10 @@ RC_GTEST_PROP(Sensors, WhateverTheySayVelocityAndMessageAreSound, ()) {
       r.senses.odometry = {garbage(), garbage(), garbage()};
       r.senses.orders = {*rc::gen::arbitrary<bool>(), Vec2{garbage(), garbage()}};
       r.senses.elapsed_s = garbage();
-      RC_ASSERT(is_sound(robot.step(r), robot.params));
+      RC_ASSERT(is_sound(robot.step(r)));
     }
-    RC_ASSERT(is_sound(robot.steps(3), robot.params));
-    RC_ASSERT(std::isfinite(tree_report(robot.state).want_m));
+    RC_ASSERT(is_sound(robot.steps(3)));
+    RC_ASSERT(std::isfinite(tree_report(robot.state).want));
   });
 }
 
@@ -329,7 +331,7 @@ TEST(Sensors, OneBadReadingMakesNoSecondRoot) {
       };
       if constexpr (requires { robot.state.was_sent; }) robot.state.was_sent = false;
       for (int t = 0; t < 20; ++t) step(false);
-      EXPECT_TRUE(is_sound(step(true), robot.params));
+      EXPECT_TRUE(is_sound(step(true)));
       for (int t = 0; t < 60; ++t) step(false);
       EXPECT_EQ(robot.state.root, (RootToken{1, Sensing<Kind>::root_id}));
       EXPECT_EQ(robot.state.tally.elections, 0U);
@@ -342,16 +344,16 @@ TEST(Sensors, OneBadReadingReportsNoArrivalAndTurnsNobodyRound) {
     for_each_bad_reading([](Bad bad, float value) {
       Sensing<Kind> robot;
       const auto before = robot.steps(5);
-      EXPECT_NEAR(before.message.want_cm, 304, 1);
+      EXPECT_NEAR(before.message.want, 389, 1);
       Readings r = spoilt(Sensing<Kind>::sane(), bad, value);
       const auto spoilt = robot.step(r);
-      EXPECT_NEAR(spoilt.message.want_cm, 304, 1);
-      EXPECT_TRUE(is_sound(spoilt, robot.params));
+      EXPECT_NEAR(spoilt.message.want, 389, 1);
+      EXPECT_TRUE(is_sound(spoilt));
       if (bad == Bad::target) {
-        EXPECT_EQ(spoilt.velocity.forward_m_s, before.velocity.forward_m_s);
-        EXPECT_EQ(spoilt.velocity.turn_rad_s, before.velocity.turn_rad_s);
+        EXPECT_EQ(spoilt.motion.forward, before.motion.forward);
+        EXPECT_EQ(spoilt.motion.turn, before.motion.turn);
       }
-      EXPECT_NEAR(robot.steps(1).message.want_cm, 304, 1);
+      EXPECT_NEAR(robot.steps(1).message.want, 389, 1);
     });
   });
 }

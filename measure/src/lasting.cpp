@@ -8,7 +8,7 @@ namespace banyan::measure {
 
 Lasting::Lasting(const world::World& world)
     : range_m_(world.scenario().radio.range_m),
-      after_ticks_(static_cast<std::uint32_t>(1.0 / world.scenario().tick_s + 0.5)),
+      after_ticks_(static_cast<std::uint32_t>(0.1 * world::drive_s(world.scenario()) / world.scenario().tick_s + 0.5)),
       courses_(world.charge().size()),
       touched_(world.charge().size()),
       relieved_(world.charge().size()) {

@@ -28,7 +28,7 @@ namespace {
 
 constexpr double low_fiedler = 1e-3;           // paper Sec. IV-B
 constexpr std::size_t every_tick_limit = 150;  // robots up to which lambda_2 is judged at every tick
-constexpr double sample_period_s = 2.0;        // above that
+constexpr double sample_period_drives = 0.2;   // above that
 
 // Communication graph of the living robots, which are renumbered without gaps.
 class LivingGraph {
@@ -209,6 +209,7 @@ struct Observer::Impl {
   double tolerance_m;
   bool stop_when_complete;
   double settle_s;
+  double time_rounding_s;
   std::uint64_t sample_ticks;
   LivingGraph graph;
   world::TreeParts tree_parts;
@@ -314,15 +315,17 @@ Observer::Impl::Impl(const world::World& world)
       tolerance_m(world.scenario().mission.target_tolerance_m),
       stop_when_complete(world.scenario().mission.stop_when_complete),
       settle_s(world.scenario().mission.settle_s),
-      sample_ticks(
-          std::max<std::uint64_t>(1, static_cast<std::uint64_t>(sample_period_s / world.scenario().tick_s + 0.5))),
+      time_rounding_s(world::time_rounding_s(world.scenario())),
+      sample_ticks(std::max<std::uint64_t>(
+          1, static_cast<std::uint64_t>(
+                 sample_period_drives * world::drive_s(world.scenario()) / world.scenario().tick_s + 0.5))),
       tree_parts(world.size()),
       first_targets(active_positions(world)),
       first_others(unsent_positions(world)),
       speed_m_s(world.scenario().robot.wheel_limit_m_s),
       effort(world),
       lasting(world),
-      recovery(world.scenario().tick_s, stop_when_complete ? settle_s : 0.0),
+      recovery(world.scenario().tick_s, world::drive_s(world.scenario()), stop_when_complete ? settle_s : 0.0),
       takeovers(world.scenario().tick_s),
       silence(liveness_period_s(world), world.scenario().tick_s),
       redundancy(world),
@@ -458,7 +461,7 @@ void Observer::Impl::measure_targets(const world::World& world) {
   }
   takeovers.observe(holders, targets, alive);
   // A run that heals on after its limit is no longer in time.
-  if (run.complete || !tick.complete() || tick.time_s > run.time_limit_s + 1e-9) return;
+  if (run.complete || !tick.complete() || tick.time_s > run.time_limit_s + time_rounding_s) return;
   run.complete = true;
   run.completion_time_s = tick.time_s;
   run.normalized_time = tick.time_s / run.time_limit_s;
@@ -530,10 +533,10 @@ void Observer::Impl::watch_recovery(const world::World& world) {
 // since every moment of the mission has come; those of a run that is not complete at its limit may
 // wait for a moment that never comes.
 bool Observer::Impl::finished() const noexcept {
-  const bool limit_reached = run.time_s >= run.time_limit_s - 1e-9;
+  const bool limit_reached = run.time_s >= run.time_limit_s - time_rounding_s;
   if (!stop_when_complete) return limit_reached;
   if (!run.complete) return limit_reached && recovery.settled();
-  return run.time_s >= run.completion_time_s + settle_s - 1e-9 && !pending_kills && recovery.settled();
+  return run.time_s >= run.completion_time_s + settle_s - time_rounding_s && !pending_kills && recovery.settled();
 }
 
 bool Observer::Impl::survivors_suffice(const world::World& world) const {
@@ -701,9 +704,12 @@ Tick at_start(const world::World& world, bool exact_fiedler) { return Observer(w
 
 bool is_plotted(const world::World& world) noexcept {
   constexpr std::size_t most_robots = 1000;
-  const double tick_s = world.scenario().tick_s;
-  const auto second = [tick_s](std::uint64_t tick) { return std::floor(static_cast<double>(tick) * tick_s + 1e-9); };
-  return world.size() <= most_robots && (world.tick() == 0 || second(world.tick()) > second(world.tick() - 1));
+  const world::Scenario& scenario = world.scenario();
+  const double period_s = 0.1 * world::drive_s(scenario);
+  const auto period = [&](std::uint64_t tick) {
+    return std::floor((static_cast<double>(tick) * scenario.tick_s + world::time_rounding_s(scenario)) / period_s);
+  };
+  return world.size() <= most_robots && (world.tick() == 0 || period(world.tick()) > period(world.tick() - 1));
 }
 
 }  // namespace banyan::measure

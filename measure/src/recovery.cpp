@@ -6,10 +6,11 @@
 
 namespace banyan::measure {
 
-Recovery::Recovery(double tick_s, double settle_s)
+Recovery::Recovery(double tick_s, double drive_s, double settle_s)
     : tick_s_{tick_s},
-      limit_ticks_{static_cast<std::uint64_t>(std::llround(recovery_limit_s / tick_s))},
-      hold_ticks_{static_cast<std::uint64_t>(std::llround(std::max(recovery_hold_s, settle_s) / tick_s))} {}
+      limit_ticks_{static_cast<std::uint64_t>(std::llround(recovery_limit_drives * drive_s / tick_s))},
+      hold_ticks_{
+          static_cast<std::uint64_t>(std::llround(std::max(recovery_hold_drives * drive_s, settle_s) / tick_s))} {}
 
 void Recovery::observe(std::uint64_t deaths, bool whole) {
   if (deaths != deaths_) {

@@ -8,7 +8,7 @@ namespace banyan::measure {
 namespace {
 
 constexpr std::uint32_t not_there = UINT32_MAX;
-constexpr double settling_s = 10.0;  // after completion
+constexpr double settling_drives = 1.0;  // after completion
 
 bool is_companion(const Report& report) noexcept { return report.role == Role::spare && report.kept[0] != nobody; }
 bool is_of_network(const world::World& world, std::size_t i) noexcept {
@@ -25,7 +25,8 @@ std::uint32_t count_companions(const world::World& world) noexcept {
 }
 
 Redundancy::Redundancy(const world::World& world)
-    : wanted_(static_cast<std::uint32_t>(world.scenario().mission.link_redundancy)) {}
+    : wanted_(static_cast<std::uint32_t>(world.scenario().mission.link_redundancy)),
+      drive_s_(world::drive_s(world.scenario())) {}
 
 void Redundancy::build(const world::World& world) {
   const auto targets = world.targets();
@@ -66,7 +67,7 @@ void Redundancy::observe(const world::World& world, double completion_s) {
   build(world);
   paths_ = search_.among(graph_, terminals_, wanted_);
   const double tick_s = world.scenario().tick_s;
-  if (completion_s >= 0.0 && world.time_s() > completion_s + settling_s - 0.5 * tick_s) {
+  if (completion_s >= 0.0 && world.time_s() > completion_s + settling_drives * drive_s_ - 0.5 * tick_s) {
     ++counted_;
     redundant_ += paths_ >= wanted_ ? 1 : 0;
     severed_ += paths_ == 0 ? 1 : 0;

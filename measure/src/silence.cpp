@@ -11,7 +11,8 @@ double liveness_period_s(const world::World& world) {
   const auto rows = world.algorithm().parameters();
   const auto row = std::find_if(rows.begin(), rows.end(),
                                 [](const ParameterInfo* info) { return info->key == "liveness_rounds"; });
-  if (row == rows.end()) return usual_liveness_period_s;
+  if (row == rows.end())
+    return usual_liveness_ticks / (1.0 / world.scenario().tick_s);  // 1.2 s, not 1.2000000000000002, at 0.1 s a tick
   const float rounds =
       world.algorithm().values(world::setup_of(world.scenario()))[static_cast<std::size_t>(row - rows.begin())];
   return static_cast<double>(rounds) * world.scenario().tick_s;

@@ -539,7 +539,7 @@ TEST(Observer, AWorkerThatNobodyReplacesIsNeverRecoveredFrom) {
   EXPECT_EQ(observer.last().targets_reached, 1U);
   EXPECT_FALSE(run.recovered);
   EXPECT_EQ(run.recovery_time_s, -1.0);
-  EXPECT_NEAR(run.time_s, run.last_death_s + 0.1 + recovery_limit_s, 1e-9);
+  EXPECT_NEAR(run.time_s, run.last_death_s + 0.1 + recovery_limit_drives * 10.0, 1e-9);
   const Vec2 body = world.positions()[probe.targets()[1].worker];
   EXPECT_GE(observer.last().worst_target_distance_m, distance(body, world.targets()[1].position) - 1e-12);
 }
@@ -619,7 +619,7 @@ TEST(Observer, WhatWasLostBeforeTheLimitIsWaitedForButNotWhatMayNeverCome) {
   Observer observer(world);
   while (!observer.finished()) after(world, observer, 1);
   EXPECT_FALSE(observer.run().complete);
-  EXPECT_NEAR(observer.run().time_s, 10.1 + recovery_limit_s, 1e-9);
+  EXPECT_NEAR(observer.run().time_s, 10.1 + recovery_limit_drives * 10.0, 1e-9);
   s.mission.stop_when_complete = false;
   World cut(s);
   Observer limit(cut);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Recovery told by hand: ticks of 1 s, so that the limit is 200 ticks and the hold 20.
+// Recovery told by hand: ticks of 1 s and drives of 10 s, so that the limit is 200 ticks and the hold 20.
 #include "banyan/measure/recovery.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ void observe(Recovery& recovery, int ticks, std::uint64_t deaths, bool whole) {
 }
 
 TEST(Recovery, WithoutDeathsThereIsNothingToRecoverFrom) {
-  Recovery recovery(1.0);
+  Recovery recovery(1.0, 10.0);
   observe(recovery, 500, 0, true);
   EXPECT_FALSE(recovery.recovered());
   EXPECT_EQ(recovery.time_s(), -1.0);
@@ -27,7 +27,7 @@ TEST(Recovery, WithoutDeathsThereIsNothingToRecoverFrom) {
 }
 
 TEST(Recovery, ASwarmThatStaysWholeNeedsNoTime) {
-  Recovery recovery(1.0);
+  Recovery recovery(1.0, 10.0);
   observe(recovery, 50, 0, true);
   observe(recovery, 20, 1, true);
   EXPECT_FALSE(recovery.recovered()) << "still to be seen 20 s later";
@@ -39,7 +39,7 @@ TEST(Recovery, ASwarmThatStaysWholeNeedsNoTime) {
 }
 
 TEST(Recovery, CountsFromTheDeathToTheFirstInstant) {
-  Recovery recovery(1.0);
+  Recovery recovery(1.0, 10.0);
   observe(recovery, 7, 3, false);
   observe(recovery, 21, 3, true);
   EXPECT_EQ(recovery.time_s(), 7.0);
@@ -48,7 +48,7 @@ TEST(Recovery, CountsFromTheDeathToTheFirstInstant) {
 }
 
 TEST(Recovery, HoldsForTwentySecondsWithoutABreak) {
-  Recovery recovery(1.0);
+  Recovery recovery(1.0, 10.0);
   observe(recovery, 10, 1, true);
   observe(recovery, 1, 1, false);
   observe(recovery, 20, 1, true);
@@ -58,20 +58,20 @@ TEST(Recovery, HoldsForTwentySecondsWithoutABreak) {
 }
 
 TEST(Recovery, HoldsForAsLongAsTheMissionSettles) {
-  Recovery recovery(1.0, 60.0);
+  Recovery recovery(1.0, 10.0, 60.0);
   observe(recovery, 60, 1, true);
   observe(recovery, 1, 1, false);
   observe(recovery, 60, 1, true);
   EXPECT_FALSE(recovery.recovered());
   observe(recovery, 1, 1, true);
   EXPECT_EQ(recovery.time_s(), 61.0);
-  Recovery brief(1.0, 5.0);
+  Recovery brief(1.0, 10.0, 5.0);
   observe(brief, 20, 1, true);
   EXPECT_FALSE(brief.recovered()) << "but never shorter than 20 s";
 }
 
 TEST(Recovery, EveryDeathBeginsAnew) {
-  Recovery recovery(1.0);
+  Recovery recovery(1.0, 10.0);
   observe(recovery, 30, 1, true);
   EXPECT_TRUE(recovery.recovered());
   observe(recovery, 5, 2, false);
@@ -82,13 +82,13 @@ TEST(Recovery, EveryDeathBeginsAnew) {
 }
 
 TEST(Recovery, TheLastInstantThatCountsIsAtTheLimit) {
-  Recovery in_time(1.0);
+  Recovery in_time(1.0, 10.0);
   observe(in_time, 200, 1, false);
   observe(in_time, 20, 1, true);
   EXPECT_FALSE(in_time.settled());
   observe(in_time, 1, 1, true);
   EXPECT_EQ(in_time.time_s(), 200.0);
-  Recovery too_late(1.0);
+  Recovery too_late(1.0, 10.0);
   observe(too_late, 200, 1, false);
   EXPECT_FALSE(too_late.settled());
   observe(too_late, 1, 1, false);
@@ -101,7 +101,7 @@ TEST(Recovery, TheLastInstantThatCountsIsAtTheLimit) {
 // The definition word for word, over random histories.
 TEST(Recovery, IsWhatItsDefinitionSays) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    Recovery recovery(0.5);
+    Recovery recovery(0.5, 10.0);
     std::vector<bool> whole;
     std::uint64_t deaths = 0;
     std::size_t last_death = 0;

@@ -46,7 +46,7 @@ constexpr Column<Row> identifying_table[] = {
     {"targets", "number of targets at the start", 0, [](const Row& r) { return natural(r.id.targets); }},
     {"target_radius_m", "the farthest target from the centre of the start", 4,
      [](const Row& r) -> Cell { return r.id.target_radius_m; }, "farthest target (m)"},
-    {"redundancy", "the paper's k: robots in units of sum |p| / 1.540841 m", 4,
+    {"redundancy", "the paper's k: robots in units of sum |p| / 0.77 C", 4,
      [](const Row& r) -> Cell { return r.id.redundancy; }},
     {"range_m", "communication range C", 4, [](const Row& r) -> Cell { return r.id.range_m; }, "radio range C (m)"},
     {"tick_s", "length of a tick", 4, [](const Row& r) -> Cell { return r.id.tick_s; }, "length of a tick (s)"},
@@ -118,7 +118,8 @@ constexpr Column<Row> result_table[] = {
      [](const Row& r) { return natural(r.run.companions); }},
     {"redundancy_ratio", "(committed + companions) / redundancy_bound", 6,
      [](const Row& r) -> Cell { return r.run.redundancy_ratio; }, "robots with companions / bound for k paths"},
-    {"redundant_time_ratio", "from 10 s after completion on, share of ticks with k disjoint paths; empty if k is 1", 6,
+    {"redundant_time_ratio",
+     "from a drive (C / v_max) after completion on, share of ticks with k disjoint paths; empty if k is 1", 6,
      [](const Row& r) { return if_known(r.run.redundant_time_ratio); }, "time with k disjoint paths (share)"},
     {"severed_ticks", "of these, with living workers or the root cut off from each other", 0,
      [](const Row& r) { return natural(r.run.severed_ticks); }},
@@ -205,8 +206,8 @@ constexpr Column<Row> result_table[] = {
     {"survivors", "robots alive at the end", 0, [](const Row& r) { return natural(r.run.survivors); }},
     {"last_death_s", "when the last of them died; empty if none did", 4,
      [](const Row& r) { return if_known(r.run.last_death_s); }, "last death (s)"},
-    {"recovered", "whole again within 200 s of the last death, and without a break for 20 s or settle_s", 0,
-     [](const Row& r) -> Cell { return r.run.recovered; }, "recovered networks (share)"},
+    {"recovered", "whole again within 20 drives (C / v_max) of the last death, and without a break for 2 or settle_s",
+     0, [](const Row& r) -> Cell { return r.run.recovered; }, "recovered networks (share)"},
     {"recovery_time_s", "from the last death until then; empty if not recovered", 4,
      [](const Row& r) { return if_known(r.run.recovery_time_s); }, "recovery time (s)"},
     {"lost_holders", "workers that died at their targets", 0, [](const Row& r) { return natural(r.run.lost_holders); },
@@ -331,8 +332,7 @@ Identification identify(const world::Scenario& scenario, std::string_view versio
     sum_m += far_m;
     id.target_radius_m = std::max(id.target_radius_m, far_m);
   }
-  constexpr double paper_spacing_m = 1.540841;  // delta of inwards (protocol 2, row 10)
-  const double given = static_cast<double>(scenario.swarm.robots.value_or(0)) * paper_spacing_m;
+  const double given = static_cast<double>(scenario.swarm.robots.value_or(0)) * world::redundancy_edge_m(scenario);
   id.redundancy = !scenario.swarm.robots ? scenario.swarm.redundancy : sum_m > 0.0 ? given / sum_m : 0.0;
   id.range_m = scenario.radio.range_m;
   id.tick_s = scenario.tick_s;

@@ -39,7 +39,7 @@ std::string without_checksums(std::string bytes) {
   return bytes;
 }
 
-// Positions and angles are kept with four decimals.
+// Positions and angles are kept with four decimals, other lengths with three.
 void expect_recorded(const Frame& got, const Frame& given) {
   EXPECT_EQ(got.tick, given.tick);
   EXPECT_NEAR(got.time_s, given.time_s, 1e-9);
@@ -49,7 +49,9 @@ void expect_recorded(const Frame& got, const Frame& given) {
     EXPECT_NEAR(rounded.position.x, given.robots[i].position.x, 0.51e-4);
     EXPECT_NEAR(rounded.position.y, given.robots[i].position.y, 0.51e-4);
     EXPECT_NEAR(rounded.heading_rad, given.robots[i].heading_rad, 0.51e-4);
+    EXPECT_NEAR(rounded.label_m, given.robots[i].label_m, 0.51e-3);
     rounded.position = given.robots[i].position;
+    rounded.label_m = given.robots[i].label_m;
     rounded.heading_rad = given.robots[i].heading_rad;
     EXPECT_TRUE(rounded == given.robots[i]) << "robot " << i;
   }

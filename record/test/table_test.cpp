@@ -186,6 +186,8 @@ TEST(Table, IdentifyTellsWhatWasRun) {
   EXPECT_EQ(id.body, "linear");
   scenario.swarm.robots = 9;
   EXPECT_NEAR(identify(scenario, "", "").redundancy, 9.0 * 1.540841 / 9.0, 1e-6);
+  scenario.radio.range_m = 4.0;
+  EXPECT_NEAR(identify(scenario, "", "").redundancy, 9.0 * 3.081682 / 9.0, 1e-6);
 }
 
 }  // namespace

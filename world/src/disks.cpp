@@ -11,6 +11,10 @@
 namespace banyan::world {
 namespace {
 
+// How much farther than to their touching bodies that overlap are moved apart, so that rounds end; of a radius, and a
+// millionth of a metre for a Khepera IV.
+constexpr double beyond_touching = 1e-6 / 0.0704;
+
 class Disks final : public Bodies {
  public:
   explicit Disks(const Scenario& scenario)
@@ -64,8 +68,8 @@ class Disks final : public Bodies {
         if (d2 >= reach * reach) continue;
         overlap = true;
         const double length = std::sqrt(d2);
-        const Vec2 n = length > 1e-9 ? d / length : Vec2{1.0, 0.0};
-        const Vec2 shift = n * (0.5 * (reach - length) + 1e-6);  // slightly more, so that rounds end
+        const Vec2 n = length > 0.0 ? d / length : Vec2{1.0, 0.0};
+        const Vec2 shift = n * (0.5 * (reach - length) + beyond_touching * robot_.radius_m);
         poses.position[i] -= shift;
         poses.position[j] += shift;
       }

@@ -20,7 +20,7 @@ void World::Impl::happen() {
   drive_targets();
   const double now_s = static_cast<double>(tick) * scenario.tick_s;
   watch_for_moments(now_s);
-  while (const auto entry = event_queue.take(now_s + 1e-9)) apply(*entry);
+  while (const auto entry = event_queue.take(now_s + time_rounding_s(scenario))) apply(*entry);
 }
 
 void World::Impl::drive_targets() {

@@ -4,6 +4,7 @@
 #include "banyan/world/faults.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "banyan/controller/core/algorithm.hpp"
@@ -66,17 +67,13 @@ void check_keys(FaultList& list, const std::string& shown, std::span<const Key<O
 
 void check_parameter(FaultList& list, const AlgorithmList& algorithms, const std::string& name, double value) {
   const std::string key = "mission.parameters." + name;
-  if (const std::string_view owner = platform_key(name); !owner.empty()) {
-    list.fail(key, "follows from the key " + std::string(owner) + ": set that instead");
-    return;
-  }
   std::vector<std::string_view> known;
   for (const ParameterInfo& info : algorithms.parameters()) {
     if (info.key == name) {
       check_range(list, key, value, {widened(info.minimum), widened(info.maximum)}, info.unit);
       return;
     }
-    if (platform_key(info.key).empty()) known.push_back(info.key);
+    known.push_back(info.key);
   }
   const std::string_view near = nearest_name(name, known);
   list.fail(
@@ -159,17 +156,52 @@ template <class Is> std::string of_those_here(const AlgorithmList& algorithms, c
   return names.empty() ? "" : std::string("; of those here, ") + what + " " + names;
 }
 
+// What is possible does not depend on how large a robot is or how fast, but on how that compares with its radio and its
+// ticks.
+void check_proportions(FaultList& list, const Scenario& scenario) {
+  const double fewest = widened(least_rounds_per_drive), most = widened(most_rounds_per_drive);
+  const double thinnest = widened(least_body_radius), widest = widened(most_body_radius);
+  constexpr double rounding = 1e-9;
+  const double range = scenario.radio.range_m;
+  const double drive = drive_s(scenario);
+  const double ticks = drive / scenario.tick_s;
+  if (ticks < fewest * (1.0 - rounding) || ticks > most * (1.0 + rounding)) {
+    const Range& any_tick = find_key(scenario_keys(), "tick_s")->range;
+    const double least_s = std::max(drive / most, any_tick.minimum),
+                 most_s = std::min(drive / fewest, any_tick.maximum);
+    list.fail("tick_s",
+              "a robot drives as far as the radio reaches in radio.range_m / (robot.wheel_limit_m_s * tick_s) = " +
+                  short_text(range) + " / (" + short_text(scenario.robot.wheel_limit_m_s) + " * " +
+                  short_text(scenario.tick_s) + ") = " + short_text(ticks) + " ticks, which must be 25 to 2000; " +
+                  (least_s <= most_s ? "set tick_s to " + short_text(least_s) + " to " + short_text(most_s) + " s"
+                                     : "set radio.range_m or robot.wheel_limit_m_s, no tick_s fits these"));
+  }
+  const double share = scenario.robot.radius_m / range;
+  if (share < thinnest * (1.0 - rounding) || share > widest * (1.0 + rounding))
+    list.fail("robot.radius_m", "is " + short_text(scenario.robot.radius_m) + " m, " + short_text(share) +
+                                    " of radio.range_m = " + short_text(range) +
+                                    " m; must be 0.001 to 0.17 of it, here " + short_text(thinnest * range) + " to " +
+                                    short_text(widest * range) + " m");
+}
+
+// mission.time_limit_s, as it is given or as it follows.
+void check_time_limit(FaultList& list, const Scenario& scenario) {
+  if (time_limit_s(scenario) >= scenario.tick_s) return;
+  list.fail("mission.time_limit_s",
+            scenario.mission.time_limit_s > 0.0
+                ? "is " + short_text(scenario.mission.time_limit_s) +
+                      " s, shorter than a tick: give at least tick_s = " + short_text(scenario.tick_s) +
+                      " s, or 0 for ten times a straight drive to the farthest target"
+                : "must be given when no target is away from swarm.start.center_m");
+}
+
 void check_platform(FaultList& list, const Scenario& scenario) {
   const double reach = scenario.robot.wheel_limit_m_s * scenario.tick_s;
   if (!scenario.obstacles.empty() && reach >= scenario.robot.radius_m)
     list.fail("tick_s", "a robot covers " + short_text(reach) +
                             " m in one tick and could pass through an obstacle;"
                             " tick_s * robot.wheel_limit_m_s must be below robot.radius_m");
-  if (2.0 * scenario.robot.radius_m >= scenario.radio.range_m)
-    list.fail("radio.range_m", "must exceed two robot radii (" + short_text(2.0 * scenario.robot.radius_m) +
-                                   " m), else no robot can hear another");
-  if (time_limit_s(scenario) < scenario.tick_s)
-    list.fail("mission.time_limit_s", "must be given when no target is away from swarm.start.center_m");
+  check_time_limit(list, scenario);
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
     check_obstacle_body(list, scenario, element("obstacles", i) + ".size_m", scenario.obstacles[i]);
   if (const std::string text = algorithm_of(scenario).fault(setup_of(scenario)); !text.empty())
@@ -225,6 +257,18 @@ class Groups {
   std::size_t count_;
 };
 
+// How far from the start's centre robots may be, or be sent: farther away they would have no numbers for places.
+double farthest_m(const Scenario& scenario) { return widened(farthest_target) * scenario.radio.range_m; }
+
+// "500 m from swarm.start.center_m; ..." if that is too far; else nothing.
+std::string far_text(const Scenario& scenario, Vec2 p) {
+  const double away = distance(scenario.swarm.start.center, p);
+  if (away <= farthest_m(scenario)) return {};
+  return short_text(away) +
+         " m from swarm.start.center_m, farther than 200 * radio.range_m = " + short_text(farthest_m(scenario)) +
+         " m; bring it nearer, or set a longer range";
+}
+
 // Overlaps and connected components of a list start.
 void check_listed_cluster(FaultList& list, const Scenario& scenario) {
   const std::vector<Vec2>& p = scenario.swarm.start.positions;
@@ -246,6 +290,9 @@ void check_listed_cluster(FaultList& list, const Scenario& scenario) {
     list.fail("swarm.start.positions_m", "the start is not connected: " + std::to_string(groups.count()) +
                                              " groups are farther than radio.range_m = " + short_text(range) +
                                              " m from each other");
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (const std::string text = far_text(scenario, p[i]); !text.empty())
+      list.fail(element("swarm.start.positions_m", i), "is " + text);
   for (std::size_t i = 0; i < p.size(); ++i)
     if (clearance(scenario.obstacles, p[i]) < scenario.robot.radius_m)
       list.fail(element("swarm.start.positions_m", i), "a robot at " + at(p[i]) + " touches an obstacle");
@@ -279,7 +326,7 @@ void check_spacing(FaultList& list, const Scenario& scenario) {
                                             short_text(pitch) + " m");
 }
 
-// Obstacles and the edge of the world must not cut into the start.
+// Obstacles must not cut into the start, nor may it reach too far.
 void check_placed(FaultList& list, const Scenario& scenario) {
   const Start& start = scenario.swarm.start;
   const std::vector<Vec2> p = place(scenario).position;
@@ -291,10 +338,9 @@ void check_placed(FaultList& list, const Scenario& scenario) {
     return list.fail("swarm.start", "only " + std::to_string(p.size()) + " of " +
                                         std::to_string(robot_count(scenario)) +
                                         " robots fit between the obstacles around the start");
-  const Range& allowed = find_key(scenario_keys(), "swarm.start.center_m")->range;
   for (const Vec2 q : p)
-    if (!allowed.holds(q.x) || !allowed.holds(q.y))
-      return list.fail("swarm.start", "reaches to " + at(q) + "; allowed: " + range_text(allowed, "m"));
+    if (const std::string text = far_text(scenario, q); !text.empty())
+      return list.fail("swarm.start", "reaches to " + at(q) + ", " + text);
   if (scenario.obstacles.empty() || (start.layout != Layout::ring && start.layout != Layout::bridge)) return;
   Groups groups(p.size());
   each_pair(p, scenario.radio.range_m, [&](std::size_t i, std::size_t j, double /*distance*/) {
@@ -317,7 +363,8 @@ void check_laid_out(FaultList& list, const Scenario& scenario) {
                                                std::to_string(robots) +
                                                " robots; at least one must be left for each cluster");
   const bool compact = start.layout == Layout::hexagonal || start.layout == Layout::grid;
-  if (!list.failed() && !(compact && scenario.obstacles.empty())) check_placed(list, scenario);
+  const bool small = start_pitch_m(scenario) * std::sqrt(static_cast<double>(robots)) < farthest_m(scenario);
+  if (!list.failed() && !(compact && small && scenario.obstacles.empty())) check_placed(list, scenario);
 }
 
 void check_swarm_fits(FaultList& list, const Scenario& scenario) {
@@ -371,6 +418,8 @@ void check_obstacle_body(FaultList& list, const Scenario& scenario, const std::s
 
 void check_target_room(FaultList& list, const Scenario& scenario, const std::vector<Obstacle>& obstacles,
                        const std::string& key, const std::string& name, Vec2 p) {
+  if (const std::string text = far_text(scenario, p); !text.empty())
+    list.fail(key, name + " at " + at(p) + " is " + text);
   const double room = clearance(obstacles, p);
   if (room <= 0.0) {
     list.fail(key, name + " at " + at(p) + " lies inside an obstacle");
@@ -383,6 +432,7 @@ void check_target_room(FaultList& list, const Scenario& scenario, const std::vec
 std::vector<Fault> faults(const Scenario& scenario) {
   FaultList list;
   check_values(list, scenario);
+  if (!list.failed()) check_proportions(list, scenario);
   if (!list.failed()) check_platform(list, scenario);
   if (!list.failed()) {
     check_swarm_fits(list, scenario);

@@ -12,6 +12,7 @@ namespace {
 constexpr double bandwidth_ratio = 1.28;
 constexpr double frame_bits = 8.0 * 100.0;
 constexpr double decibel = 0.23025850929940456840;  // ln 10 / 10
+constexpr double nearest = 5e-4;                    // of the range: the signal rises no more than to there
 
 double frame_reception(double noise_ratio) noexcept {
   const double bit = 1.0 - 0.5 * deterministic_exp(-noise_ratio / bandwidth_ratio);
@@ -54,7 +55,7 @@ bool Losses::in_burst(std::uint64_t receiver, std::uint64_t sender, std::uint64_
 
 // Log-distance path loss: 10 n log10(C / d) dB more than at distance C.
 double Losses::reception(std::uint64_t a, std::uint64_t b, std::uint64_t moment, double distance_m) const noexcept {
-  const double nearness = radio_.range_m / std::max(distance_m, 1e-3);
+  const double nearness = radio_.range_m / std::max(distance_m, nearest * radio_.range_m);
   const double gain = radio_.path_loss_exponent * deterministic_log(nearness) + decibel * shadowing_db(a, b, moment);
   return frame_reception(edge_noise_ratio_ * deterministic_exp(std::clamp(gain, -50.0, 50.0)));
 }

@@ -8,6 +8,8 @@
 namespace banyan::world {
 namespace {
 
+constexpr double rounding = 1e-9;  // of lengths in a world of that size, and far more
+
 struct Enclose {
   std::pair<Vec2, double> operator()(const Disc& disc) const { return {disc.center, disc.radius_m}; }
   std::pair<Vec2, double> operator()(const Box& box) const { return {box.center, 0.5 * norm(box.size)}; }
@@ -63,7 +65,7 @@ void Proximity::set_obstacles(std::span<const Obstacle> obstacles) {
   around_.clear();
   for (const Obstacle& obstacle : obstacles_) {
     const auto [center, radius] = std::visit(Enclose{}, obstacle);
-    around_.push_back({center, radius * (1.0 + 1e-9) + 1e-9});
+    around_.push_back({center, (radius + reach_m_) * (1.0 + rounding) - reach_m_});
   }
 }
 

@@ -30,6 +30,12 @@ constexpr std::size_t few_cells = 15;  // so few, and scanning all robots beats 
 constexpr float far_away = 1e18F;      // its square is finite
 constexpr float none_near = 1e30F;     // less than that
 constexpr double skin_share = 0.1;     // of the range
+// Of the body's radius: how far apart two robots may be that bodies pushed by others could still bring together.
+constexpr double push_share = 1.0 / 7.0;
+// Of the range: bounds on rounding, far above what single precision rounds within a row. They cost time, not accuracy.
+constexpr float place_share = 0x1p-21F;  // of a place, beside what the extent of the swarm takes
+constexpr float line_share = 1e-4F;      // of a distance from a line
+constexpr float short_share = 0x1p-11F;  // a line as short as this has no direction
 
 // Four at a time. Compilers vectorise loops themselves, but not all of the following ones.
 using Four = float __attribute__((vector_size(16)));
@@ -77,7 +83,8 @@ struct TwoLeast {
 Radio::Radio(const Scenario& scenario, std::size_t robots)
     : range_m_(scenario.radio.range_m),
       radius_m_(scenario.robot.radius_m),
-      near_m_(2.0 * scenario.robot.radius_m + 4.0 * scenario.robot.wheel_limit_m_s * scenario.tick_s + 0.01),
+      near_m_(2.0 * scenario.robot.radius_m + 4.0 * scenario.robot.wheel_limit_m_s * scenario.tick_s +
+              push_share * scenario.robot.radius_m),
       line_of_sight_(scenario.radio.line_of_sight),
       leaky_(scenario.radio.sight_leak > 0.0),
       dead_vanish_(!scenario.robot.dead_bodies),
@@ -188,10 +195,10 @@ void Radio::note_places(std::span<const Vec2> positions, Vec2 low, Vec2 high) {
   }
   // The difference of two places: each is rounded by half of the last of 24 bits, and so is the difference.
   rounding_m_ =
-      static_cast<float>(1e-6 + 2.0 * std::numeric_limits<float>::epsilon() * std::max(high.x - low.x, high.y - low.y));
+      place_share * static_cast<float>(range_m_) +
+      static_cast<float>(2.0 * std::numeric_limits<float>::epsilon() * std::max(high.x - low.x, high.y - low.y));
   limits_.area_m2 = 8.0F * static_cast<float>(reach_m_) * rounding_m_;
-  limits_.edge_m4 = 4.0F * static_cast<float>(1.0 + radius_m_) * limits_.area_m2 *
-                    (static_cast<float>(radius_m_ * reach_m_) + limits_.area_m2);
+  limits_.edge_m4 = 4.0F * limits_.area_m2 * (static_cast<float>(radius_m_ * reach_m_) + limits_.area_m2);
 }
 
 // Cells are as wide as a row reaches, so that every robot within reach is in the same cell or one beside it.
@@ -542,11 +549,12 @@ Radio::View Radio::look(const Site& site, const Pair& pair, Vec2 d, double lengt
   const auto target = lower + static_cast<std::size_t>(&pair - site.pairs.data());
   const auto body = [&](std::size_t at) { return at < lower ? site.lower[at] : site.pairs[at - lower].other; };
   const auto length = static_cast<float>(length_m);
-  const bool has_direction = length > 1e-3F;  // if not, all bodies are tested
+  const auto range = static_cast<float>(range_m_);
+  const bool has_direction = length > short_share * range;  // if not, all bodies are tested
   const Four ux = four(has_direction ? static_cast<float>(d.x) / length : 0.0F);
   const Four uy = four(has_direction ? static_cast<float>(d.y) / length : 0.0F);
   const Four end = four(length);
-  const float rounding = 1e-4F * (length + 1.0F) + 4.0F * rounding_m_;  // far above it
+  const float rounding = line_share * (length + 0.5F * range) + 4.0F * rounding_m_;
   const float beside = static_cast<float>(radius_m_) + rounding;
   const float beside2 = has_direction ? beside * beside : none_near;
   const auto distance2 = [&](std::size_t at) {  // of four bodies, from the segment

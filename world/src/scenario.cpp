@@ -13,8 +13,6 @@
 namespace banyan::world {
 namespace {
 
-constexpr double delta_inwards = 1.540841;  // m; protocol 2, row 10
-
 struct TargetPositions {
   const Scenario& scenario;
   std::vector<Vec2> operator()(const std::vector<Vec2>& list) const { return list; }
@@ -80,6 +78,8 @@ std::vector<Vec2> target_positions(const Scenario& scenario) {
   return positions;
 }
 
+double redundancy_edge_m(const Scenario& scenario) noexcept { return 0.7704205 * scenario.radio.range_m; }
+
 std::size_t robot_count(const Scenario& scenario) {
   const SwarmModel& swarm = scenario.swarm;
   if (swarm.start.layout == Layout::list) return swarm.start.positions.size();
@@ -88,7 +88,7 @@ std::size_t robot_count(const Scenario& scenario) {
   const std::vector<Vec2> targets = mission_targets(scenario);
   for (const Vec2 p : targets) length += distance(swarm.start.center, p);
   const std::size_t places = scenario.battery.on() ? scenario.battery.places.size() : 0;
-  return std::max(robots_for(swarm.redundancy * length / delta_inwards), targets.size() + places + 1);
+  return std::max(robots_for(swarm.redundancy * length / redundancy_edge_m(scenario)), targets.size() + places + 1);
 }
 
 double start_pitch_m(const Scenario& scenario) {
@@ -105,6 +105,10 @@ static std::size_t longest_way(const Scenario& scenario) {
   const double slowest = std::max(1.0 - scenario.clocks.drift, 1e-3);
   return (latency - 1) * substeps + static_cast<std::size_t>(std::ceil(static_cast<double>(substeps) / slowest)) + 2;
 }
+
+double drive_s(const Scenario& scenario) noexcept { return scenario.radio.range_m / scenario.robot.wheel_limit_m_s; }
+
+double time_rounding_s(const Scenario& scenario) noexcept { return 1e-8 * scenario.tick_s; }
 
 double time_limit_s(const Scenario& scenario) {
   if (scenario.mission.time_limit_s > 0.0) return scenario.mission.time_limit_s;

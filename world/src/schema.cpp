@@ -91,14 +91,18 @@ std::vector<double>* headings_of(Scenario& s) noexcept { return is_listed(s) ? &
 std::vector<Vec2>* listed_targets_of(Scenario& s) noexcept { return std::get_if<std::vector<Vec2>>(&s.targets); }
 Obstacle* itself(Obstacle& o) noexcept { return &o; }
 
-constexpr double world_size = 1e4;  // m; beyond it single precision on robots loses the millimetre
-constexpr double long_time = 1e7;   // s
+// What really limits a world is how its lengths and times compare: faults.cpp looks at that.
+constexpr double world_size = 1e8;  // m
+constexpr double long_range = 1e5;  // m
+constexpr double long_time = 1e9;   // s
 constexpr Range any_value;
 constexpr Range some_robots{1.0, most_robots};
 constexpr Range robots_of_swarm{2.0, most_robots};
 constexpr Range any_robot{0.0, most_robots - 1};
 constexpr Range anywhere{-world_size, world_size};
 constexpr Range any_length{0.0, world_size, true};
+constexpr Range any_reach{0.0, long_range};
+constexpr Range some_reach{0.0, long_range, true};
 constexpr Range any_time{0.0, long_time};
 constexpr Range any_share{0.0, 1.0};
 constexpr Range any_part{0.0, 1.0, true};
@@ -133,8 +137,8 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"name", of<&Scenario::name>, "", any_value,
      "names the run and its output directory; letters, digits, '-', '_' and '.'", {.otherwise = "the file's name"}},
     {"description", of<&Scenario::description>, "", any_value, "what this world is about, for readers"},
-    {"tick_s", of<&Scenario::tick_s>, "s", {0.01, 1.0},
-     "length of a tick; robots broadcast, decide and move once a tick", {.parameter = "tick_s"}},
+    {"tick_s", of<&Scenario::tick_s>, "s", {0.001, 10.0},
+     "length of a tick; robots broadcast, decide and move once a tick"},
     {"seed", of<&Scenario::seed>, "", any_seed, "determines everything random; the same seed gives the same run",
      {.only_in_files = true}},
 
@@ -143,8 +147,6 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"mission.reading", word<&Mission::reading, reading_names>, "", any_value,
      "the paper as printed (literal), or with its gaps closed (corrected); literal has an effect with outwards and "
      "inwards only"},
-    {"mission.scale", of<&Mission::scale>, "", {0.0, 1000.0, true},
-     "factor on Table I's lengths S, A, delta, E and J (paper Sec. IV-C)"},
     {"mission.target_tolerance_m", of<&Mission::target_tolerance_m>, "m", any_length,
      "a target is reached when its worker is this near"},
     {"mission.time_limit_s", of<&Mission::time_limit_s>, "s", any_time,
@@ -160,7 +162,7 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"swarm.robots", of<&SwarmModel::robots>, "", robots_of_swarm, "number of robots",
      {.otherwise = "from redundancy, or the length of start.positions_m"}},
     {"swarm.redundancy", by<redundancy_of>, "", {0.0, 1000.0, true},
-     "the paper's k: ceil(k * sum of target distances / 1.540841 m) robots",
+     "the paper's k: ceil(k * sum of target distances / (0.7704205 * radio.range_m)) robots",
      {.not_beside = "robots", .selector = "swarm.start.layout"}},
     {"swarm.root", of<&SwarmModel::root>, "", any_robot,
      "index of the first root, counted from 0 at the centre of the start",
@@ -171,13 +173,13 @@ constexpr Key<Scenario> scenario_rows[] = {
      "a bridge, a random connected graph, or a list of positions"},
     {"swarm.start.center_m", of<&Start::center>, "m", anywhere,
      "centre of the start; in a random one, the robot from which it grows"},
-    {"swarm.start.pitch_m", by<pitch_of>, "m", {0.0, 1000.0, true},
+    {"swarm.start.pitch_m", by<pitch_of>, "m", some_reach,
      "distance between neighbours, within the clusters of a bridge; in a random start the least distance between "
      "any two",
      {.not_beside = "pitch_share"}},
     {"swarm.start.pitch_share", by<pitch_share_of>, "", any_part,
      "the same as a share of radio.range_m; not beside pitch_m", {.otherwise = "pitch_m counts"}},
-    {"swarm.start.jitter_m", by<jitter_of>, "m", {0.0, 1000.0}, "each robot is displaced from its point by up to this"},
+    {"swarm.start.jitter_m", by<jitter_of>, "m", any_reach, "each robot is displaced from its point by up to this"},
     {"swarm.start.link_share", by<link_share_of>, "", any_part,
      "spacing of the bridge, or longest link over which a random start grows, as a share of radio.range_m"},
     {"swarm.start.bridge_robots", by<bridge_robots_of>, "", some_robots, "robots between the two clusters"},
@@ -188,11 +190,11 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"robot.body", of<&RobotModel::body>, "", any_value,
      "disks: wheels and contacts, fast; box2d: with mass and force limits; linear: the paper's point masses, "
      "holonomic"},
-    {"robot.radius_m", of<&RobotModel::radius_m>, "m", {0.0, 100.0, true}, "radius of the body"},
-    {"robot.wheel_distance_m", of<&RobotModel::wheel_distance_m>, "m", {0.01, 2.0},
-     "distance between the wheels", {.parameter = "wheel_distance_m"}},
-    {"robot.wheel_limit_m_s", of<&RobotModel::wheel_limit_m_s>, "m/s", {0.001, 10.0},
-     "largest speed of a wheel", {.parameter = "wheel_limit_m_s"}},
+    {"robot.radius_m", of<&RobotModel::radius_m>, "m", some_reach, "radius of the body"},
+    {"robot.wheel_distance_m", of<&RobotModel::wheel_distance_m>, "m", some_reach,
+     "distance between the wheels"},
+    {"robot.wheel_limit_m_s", of<&RobotModel::wheel_limit_m_s>, "m/s", {1e-4, 1000.0},
+     "largest speed of a wheel"},
     {"robot.wheel_noise", of<&RobotModel::wheel_noise>, "", any_share,
      "sigma of the factor on each wheel's speed, drawn every tick"},
     {"robot.wheel_bias", of<&RobotModel::wheel_bias>, "", any_share,
@@ -204,18 +206,18 @@ constexpr Key<Scenario> scenario_rows[] = {
      "largest force of the wheels (body box2d)"},
     {"robot.max_torque_nm", of<&RobotModel::max_torque_nm>, "N m", {0.0, 1e6, true},
      "largest torque of the wheels (body box2d)"},
-    {"robot.max_acceleration_m_s2", of<&RobotModel::max_acceleration_m_s2>, "m/s^2", {0.0, 1e4, true},
+    {"robot.max_acceleration_m_s2", of<&RobotModel::max_acceleration_m_s2>, "m/s^2", {0.0, 1e8, true},
      "bound on the acceleration |u| (body linear)"},
     {"robot.dead_bodies", of<&RobotModel::dead_bodies>, "", any_value,
      "the dead stay where they are and block motion and sight; false: they vanish"},
-    {"robot.proximity_m", of<&RobotModel::proximity_m>, "m", {0.0, 100.0},
+    {"robot.proximity_m", of<&RobotModel::proximity_m>, "m", any_reach,
      "reach of the proximity sensor, from the robot's centre to the surface of obstacles and dead bodies; 0: none"},
 
     {"radio.model", of<&RadioModel::model>, "", any_value,
      "which packets are lost within range and sight: disc, each with the same probability; bursts, many in a row; "
      "path_loss, more the farther away the sender is; one_way, between some pairs all those in one direction"},
-    {"radio.range_m", of<&RadioModel::range_m>, "m", {0.05, 100.0},
-     "C: two robots nearer than this hear each other", {.parameter = "communication_range_m"}},
+    {"radio.range_m", of<&RadioModel::range_m>, "m", {0.01, long_range},
+     "C: two robots nearer than this hear each other"},
     {"radio.line_of_sight", of<&RadioModel::line_of_sight>, "", any_value,
      "robots and obstacles in between block a packet"},
     {"radio.sight_leak", of<&RadioModel::sight_leak>, "", any_share,
@@ -223,7 +225,7 @@ constexpr Key<Scenario> scenario_rows[] = {
      "0: sight is exact; 0.18 as in ARGoS 3"},
     {"radio.loss", of<&RadioModel::loss>, "", any_share,
      "probability that a packet does not arrive, per packet and receiver"},
-    {"radio.burst_s", by<radio_of<&RadioModel::burst_s, Radios::bursts>>, "s", {0.0, 60.0, true},
+    {"radio.burst_s", by<radio_of<&RadioModel::burst_s, Radios::bursts>>, "s", {0.0, 1e6, true},
      "mean length of a burst, in which nothing arrives over a link; radio.loss is the share of time in bursts"},
     {"radio.path_loss_exponent", by<radio_of<&RadioModel::path_loss_exponent, Radios::path_loss>>, "", {1.0, 10.0},
      "n: the signal falls with the n-th power of the distance; 2 in free space, 3 indoors"},
@@ -235,7 +237,7 @@ constexpr Key<Scenario> scenario_rows[] = {
      "time after which that difference is drawn anew; 0: it stays the same for the whole run"},
     {"radio.one_way_share", by<radio_of<&RadioModel::one_way_share, Radios::one_way>>, "", any_share,
      "share of the pairs of robots in which one never hears the other"},
-    {"radio.range_noise_m", of<&RadioModel::range_noise_m>, "m", {0.0, 1000.0}, "sigma of the measured range"},
+    {"radio.range_noise_m", of<&RadioModel::range_noise_m>, "m", any_reach, "sigma of the measured range"},
     {"radio.bearing_noise_deg", of<&RadioModel::bearing_noise_rad>, "deg", {0.0, 180.0},
      "sigma of the measured bearing"},
     {"radio.latency_ticks", of<&RadioModel::latency_ticks>, "ticks", {1.0, 100.0},
@@ -260,12 +262,12 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"battery.computing_w", by<battery_of<&Battery::computing_w, Draws::power>>, "W", {0.0, 1e6},
         "drawn by the computer"},
     {"battery.radio_w", by<battery_of<&Battery::radio_w, Draws::power>>, "W", {0.0, 1e6}, "drawn by the radio"},
-    {"battery.drive_w_per_m_s", by<battery_of<&Battery::drive_w_per_m_s, Draws::power>>, "W s/m", {0.0, 1e6},
+    {"battery.drive_w_per_m_s", by<battery_of<&Battery::drive_w_per_m_s, Draws::power>>, "W s/m", {0.0, 1e9},
      "drawn by each wheel, times its speed"},
-    {"battery.charge_per_s", by<battery_of<&Battery::charge_per_s, Draws::time, Draws::time_motion>>, "1/s", {0.0, 1.0},
+    {"battery.charge_per_s", by<battery_of<&Battery::charge_per_s, Draws::time, Draws::time_motion>>, "1/s", {0.0, 1000.0},
      "share of a full battery that each second takes"},
     {"battery.charge_per_m", by<battery_of<&Battery::charge_per_m, Draws::motion, Draws::time_motion>>, "1/m", {0.0,
-        1.0},
+        1000.0},
      "share that each metre takes"},
     {"battery.charge_per_rad", by<battery_of<&Battery::charge_per_rad, Draws::motion, Draws::time_motion>>, "1/rad",
      {0.0, 1.0}, "share that each radian of turning takes"},
@@ -274,7 +276,7 @@ constexpr Key<Scenario> scenario_rows[] = {
      "charging places, one [x, y] each; the swarm holds them like targets"},
     {"battery.slots", by<battery_of<&Battery::slots>>, "", {1.0, 1000.0},
         "robots that a place charges at the same time"},
-    {"battery.reach_m", by<battery_of<&Battery::reach_m>>, "m", {0.0, 100.0, true},
+    {"battery.reach_m", by<battery_of<&Battery::reach_m>>, "m", some_reach,
      "a place charges robots no farther from it than this"},
     {"battery.charge_w", by<battery_of<&Battery::charge_w>>, "W", {0.0, 1e6, true},
         "power into each robot that is charged"},
@@ -325,7 +327,7 @@ constexpr Key<Event> event_rows[] = {
      "where the target is from then on, or drives to; where the centre of the obstacle is (of a wall, its middle)",
      {.required = true}},
     {"events.radius_m", of<&AddObstacle::radius_m>, "m", any_length, "radius of the disc", {.required = true}},
-    {"events.speed_m_s", of<&MoveTarget::speed_m_s>, "m/s", {0.0, 100.0},
+    {"events.speed_m_s", of<&MoveTarget::speed_m_s>, "m/s", {0.0, 1000.0},
      "the target drives there in a straight line; 0: it jumps"},
     {"events.of", of<&Kill::of>, "", any_value,
      "which robots the dead are drawn from: the living, by the role they broadcast when the event acts; "
@@ -345,11 +347,5 @@ std::span<const Key<Obstacle>> obstacle_keys() noexcept { return obstacle_rows; 
 std::span<const Key<Event>> event_keys() noexcept { return event_rows; }
 
 std::span<const Key<Scenario>> scenario_keys() noexcept { return scenario_rows; }
-
-std::string_view platform_key(std::string_view parameter) noexcept {
-  for (const Key<Scenario>& key : scenario_rows)
-    if (!parameter.empty() && key.terms.parameter == parameter) return key.path;
-  return {};
-}
 
 }  // namespace banyan::world

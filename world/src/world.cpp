@@ -21,6 +21,8 @@
 namespace banyan::world {
 namespace {
 
+constexpr double least_measured = 0.005;  // of the range: no sensor measures a distance of nothing
+
 std::unique_ptr<Bodies> make_bodies(Scenario scenario, const Poses& poses) {
   if (scenario.clocks.asynchronous) scenario.tick_s /= scenario.clocks.substeps;  // the part moved by clocks.cpp
   switch (scenario.robot.body) {
@@ -339,8 +341,9 @@ banyan::Vec2 World::Impl::blurred(std::size_t i, std::uint32_t sender, Vec2 d) c
   const RadioModel& model = scenario.radio;
   if (model.range_noise_m > 0.0) {
     const double range = norm(d);
-    const double noisy = std::max(
-        0.01, range + model.range_noise_m * to_normal(bits(scenario.seed, Purpose::range_noise, i, sender, moment)));
+    const double noisy =
+        std::max(least_measured * model.range_m,
+                 range + model.range_noise_m * to_normal(bits(scenario.seed, Purpose::range_noise, i, sender, moment)));
     d *= range > 0.0 ? noisy / range : 0.0;
   }
   if (model.bearing_noise_rad > 0.0)
@@ -380,7 +383,8 @@ void World::decide() { impl_->swarm->decide(impl_->commands, impl_->reports); }
 
 std::vector<Fault> World::faults_now(const Event& event) const {
   Present present{impl_->targets.size(), impl_->obstacles};
-  impl_->event_queue.each_due(time_s() + 1e-9, [&](const Event& sooner) { change(present.obstacles, sooner.action); });
+  impl_->event_queue.each_due(time_s() + time_rounding_s(scenario()),
+                              [&](const Event& sooner) { change(present.obstacles, sooner.action); });
   std::vector<Fault> found = event_faults(impl_->with(event), &present);
   std::erase_if(found, [](const Fault& fault) { return fault.warning; });
   return found;

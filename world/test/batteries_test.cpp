@@ -52,7 +52,7 @@ TEST(Batteries, StandingRobotsDrawWhatTheModelSaysToTheLastBitOfASum) {
 
 // A worker on its way to a target 100 m away drives straight at full speed; the other robots are hurried along.
 TEST(Batteries, ADrivingRobotDrawsForItsWayAndItsWheels) {
-  Scenario s = ring("convoy", 2, 1, 1000.0, 1);
+  Scenario s = ring("convoy", 2, 1, 390.0, 1);
   s.swarm.start.headings_rad = {0.0, 0.0};
   s.swarm.start.layout = Layout::list;
   s.swarm.start.positions = {{0.0, 0.0}, {-0.5, 0.0}};

@@ -40,7 +40,7 @@ Event event(const Action& action, double time_s = 1.0) { return {.time_s = time_
 
 const std::vector<Case>& cases() {
   static const std::vector<Case> list{
-      {"tick_s", "is 0; allowed: 0.01 to 1 s", [](Scenario& s) { s.tick_s = 0; }},
+      {"tick_s", "is 0; allowed: 0.001 to 10 s", [](Scenario& s) { s.tick_s = 0; }},
       {"tick_s", "nan", [](Scenario& s) { s.tick_s = nan; }},
       {"mission.algorithm", "did you mean \"inwards\"?", [](Scenario& s) { s.mission.algorithm = "inward"; }},
       {"mission.algorithm", "must be \"outwards\"", [](Scenario& s) { s.mission.algorithm = ""; }},
@@ -70,11 +70,11 @@ const std::vector<Case>& cases() {
        [](Scenario& s) {
          s.mission.parameters = {{"target_gain", 1e300}};
        }},
-      {"mission.parameters.tick_s", "follows from the key tick_s",
+      {"mission.parameters.tick_s", "there is no such parameter",
        [](Scenario& s) {
          s.mission.parameters = {{"tick_s", 0.1}};
        }},
-      {"mission.parameters.communication_range_m", "radio.range_m",
+      {"mission.parameters.communication_range_m", "there is no such parameter",
        [](Scenario& s) {
          s.mission.parameters = {{"communication_range_m", 2}};
        }},
@@ -88,7 +88,7 @@ const std::vector<Case>& cases() {
       {"swarm.robots", "is 65536; allowed: 2 to 65535", [](Scenario& s) { s.swarm.robots = 65536; }},
       {"swarm.robots", "3 robots cannot serve 3 targets", [](Scenario& s) { s.swarm.robots = 3; }},
       {"swarm.root", "there is no robot 9", [](Scenario& s) { s.swarm.robots = 9, s.swarm.root = 9; }},
-      {"swarm.start.center_m[0]", "is nan; allowed: -10000 to 10000 m",
+      {"swarm.start.center_m[0]", "is nan; allowed: -100000000 to 100000000 m",
        [](Scenario& s) { s.swarm.start.center.x = nan; }},
       {"swarm.start.pitch_m", "robots do not fit", [](Scenario& s) { s.swarm.start.pitch_m = 0.15; }},
       {"swarm.start.pitch_m", "not be connected", [](Scenario& s) { s.swarm.start.pitch_m = 1.97; }},
@@ -145,7 +145,39 @@ const std::vector<Case>& cases() {
       {"robot.max_torque_nm", "is 0", [](Scenario& s) { s.robot.max_torque_nm = 0; }},
       {"robot.max_acceleration_m_s2", "is 0", [](Scenario& s) { s.robot.max_acceleration_m_s2 = 0; }},
       {"radio.range_m", "is 0", [](Scenario& s) { s.radio.range_m = 0; }},
-      {"radio.range_m", "two robot radii", [](Scenario& s) { s.robot.radius_m = 1.0; }},
+      {"robot.radius_m", "is 1 m, 0.5 of radio.range_m = 2 m; must be 0.001 to 0.17 of it, here 0.002 to 0.34 m",
+       [](Scenario& s) { s.robot.radius_m = 1.0; }},
+      {"robot.radius_m", "0.0009 of radio.range_m", [](Scenario& s) { s.robot.radius_m = 0.0018; }},
+      {"tick_s", "2 / (0.2 * 0.5) = 20 ticks, which must be 25 to 2000; set tick_s to 0.005 to 0.4 s",
+       [](Scenario& s) { s.tick_s = 0.5; }},
+      {"tick_s", "2 / (0.2 * 0.004) = 2500 ticks", [](Scenario& s) { s.tick_s = 0.004; }},
+      {"tick_s", "set radio.range_m or robot.wheel_limit_m_s, no tick_s fits these",
+       [](Scenario& s) { s.robot.wheel_limit_m_s = 100.0; }},
+      {"mission.time_limit_s", "is 0.04 s, shorter than a tick: give at least tick_s = 0.1 s",
+       [](Scenario& s) { s.mission.time_limit_s = 0.04; }},
+      {"targets.positions_m[1]",
+       "target 1 at (0, 401) is 401 m from swarm.start.center_m, farther than 200 * radio.range_m = 400 m",
+       [](Scenario& s) {
+         s.swarm.robots = 400, s.targets = std::vector<Vec2>{{0, 399}, {0, 401}};
+       }},
+      {"battery.places_m[0]", "is 401 m from swarm.start.center_m",
+       [](Scenario& s) {
+         s.swarm.robots = 400, s.battery.model = Battery::Model::power, s.battery.places = {{401, 0}};
+       }},
+      {"events[0].position_m", "the target at (500, 0) is 500 m from swarm.start.center_m",
+       [](Scenario& s) {
+         s.events = {event(MoveTarget{0, {500, 0}})};
+       }},
+      {"events[0].position_m", "the target at (0, 500) is 500 m from swarm.start.center_m",
+       [](Scenario& s) {
+         s.swarm.robots = 20, s.events = {event(AddTarget{{0, 500}})};
+       }},
+      {"swarm.start.positions_m[1]", "is 401 m from swarm.start.center_m",
+       [](Scenario& s) {
+         use_list(s, {{400, 0}, {401, 0}}), s.targets = std::vector<Vec2>{{399, 0}};
+       }},
+      {"swarm.start", "reaches to (",
+       [](Scenario& s) { s.swarm.robots = 600, s.swarm.start.layout = Layout::line, s.swarm.start.pitch_share = 0.9; }},
       {"radio.loss", "1.5", [](Scenario& s) { s.radio.loss = 1.5; }},
       {"radio.range_noise_m", "-1", [](Scenario& s) { s.radio.range_noise_m = -1; }},
       {"radio.bearing_noise_deg", "is 229.18", [](Scenario& s) { s.radio.bearing_noise_rad = 4; }},
@@ -228,7 +260,7 @@ const std::vector<Case>& cases() {
        }},
       {"tick_s", "pass through an obstacle",
        [](Scenario& s) {
-         s.obstacles = {Disc{{5, 5}, 1}}, s.tick_s = 0.5;
+         s.obstacles = {Disc{{5, 5}, 1}}, s.robot.radius_m = 0.05, s.tick_s = 0.3;
        }},
       {"events[0].time_s", "-1", [](Scenario& s) { s.events = {event(Die{0}, -1)}; }},
       {"events[0].robot", "there is no robot 99", [](Scenario& s) { s.events = {event(Die{99})}; }},

@@ -332,8 +332,8 @@ TEST(Radio, NearPairsAreAllPairsThatCouldTouch) {
     const Crowd c = crowd(seed);
     Radio radio(c.scenario, c.positions.size());
     radio.update(c.positions, c.alive, executor);
-    const double near_m =
-        2 * c.scenario.robot.radius_m + 4 * c.scenario.robot.wheel_limit_m_s * c.scenario.tick_s + 0.01;
+    const double near_m = 2 * c.scenario.robot.radius_m + 4 * c.scenario.robot.wheel_limit_m_s * c.scenario.tick_s +
+                          c.scenario.robot.radius_m / 7;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> expected;
     for (std::uint32_t i = 0; i < c.positions.size(); ++i)
       for (std::uint32_t j = i + 1; j < c.positions.size(); ++j)

@@ -25,7 +25,12 @@ TEST(Scenario, RedundancyGivesThePapersNinetyFour) {
   scenario.swarm.start.center = {0, 0};
   scenario.targets = std::vector<Vec2>(6, Vec2{1.540841 * 4, 0});
   EXPECT_EQ(robot_count(scenario), 96U);
-  scenario.targets = RingTargets{4, 0.1, 0.3, {}};
+  scenario.targets = RingTargets{4, 9.0, 0.7, {}};
+  scenario.radio.range_m = 1.0;
+  EXPECT_EQ(robot_count(scenario), 187U) << "edges are shares of the range: 4 * 36 / 0.7704205";
+  scenario.targets = RingTargets{4, 4.5, 0.7, {}};
+  EXPECT_EQ(robot_count(scenario), 94U);
+  scenario.targets = RingTargets{4, 0.05, 0.3, {}};
   EXPECT_EQ(robot_count(scenario), 5U) << "never less than a worker each and a root";
   scenario.swarm.robots = 33;
   EXPECT_EQ(robot_count(scenario), 33U);

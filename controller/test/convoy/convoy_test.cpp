@@ -14,11 +14,11 @@ namespace {
 TEST_F(ConvoyChain, AskForASpareWhenLongWithWorkLeftOrWhenHidden) {
   const auto needs = [&] { return bench.step().message.need == Need::need; };
   EXPECT_FALSE(needs());
-  bench.move(2, {-1.7F, 0.0F});
+  bench.move(2, {-0.85F, 0.0F});
   EXPECT_TRUE(needs());
-  bench.say(3).want_cm = 0;
+  bench.say(3).want = 0;
   EXPECT_FALSE(needs());
-  bench.move(2, {-1.0F, 0.0F});
+  bench.move(2, {-0.5F, 0.0F});
   bench.step();
   bench.silence(2);
   for (int t = 0; t < 2; ++t) EXPECT_FALSE(needs());
@@ -27,9 +27,9 @@ TEST_F(ConvoyChain, AskForASpareWhenLongWithWorkLeftOrWhenHidden) {
 
 TEST_F(ConvoyChain, OnlyAnEdgeNearItsLimitCallsSparesFromAfar) {
   const auto calls = [&] { return bench.steps(30).message.call_hops == 0; };  // longer than a need waits for an answer
-  bench.move(2, {-1.7F, 0.0F});
+  bench.move(2, {-0.85F, 0.0F});
   EXPECT_FALSE(calls());
-  bench.move(2, {-1.85F, 0.0F});
+  bench.move(2, {-0.925F, 0.0F});
   EXPECT_TRUE(calls());
 }
 
@@ -40,11 +40,11 @@ bool joins(Vec2 owner, Vec2 parent, std::optional<Vec2> other = std::nullopt,
   ConvoyBench bench = grown<Convoy>();
   auto& above = bench.put(3, parent);
   above.role = Role::connector;
-  above.label_cm = 100;
+  above.label = 100;
   above.depth = 2;
   auto& below = bench.put(2, owner);
   below.role = Role::worker;
-  below.label_cm = 300;
+  below.label = 300;
   below.depth = 3;
   below.parent = 3;
   below.need = Need::need;
@@ -58,32 +58,32 @@ bool joins(Vec2 owner, Vec2 parent, std::optional<Vec2> other = std::nullopt,
 }
 
 TEST(Convoy, ASpareJoinsWhereItStandsIfItSeesBothEnds) {
-  EXPECT_TRUE(joins({-1.0F, 0.2F}, {1.0F, 0.2F}));
-  EXPECT_FALSE(joins({-1.0F, 0.2F}, {1.0F, 0.2F}, Vec2{0.5F, 0.1F}));
-  EXPECT_FALSE(joins({-1.0F, 0.2F}, {1.81F, 0.2F}));
+  EXPECT_TRUE(joins({-0.5F, 0.1F}, {0.5F, 0.1F}));
+  EXPECT_FALSE(joins({-0.5F, 0.1F}, {0.5F, 0.1F}, Vec2{0.25F, 0.05F}));
+  EXPECT_FALSE(joins({-0.5F, 0.1F}, {0.905F, 0.1F}));
 }
 
 TEST(Convoy, ASpareDoesNotJoinBelowARobotThatMayNotHearIt) {
-  EXPECT_TRUE(joins({-1.0F, 0.2F}, {1.0F, 0.2F}, std::nullopt, {4, 9})) << "I would not come between 4 and 9";
-  EXPECT_FALSE(joins({-1.0F, 0.2F}, {1.0F, 0.2F}, std::nullopt, {9, 4})) << "but between 9 and 4";
-  EXPECT_TRUE(joins({-1.0F, 0.2F}, {1.0F, 0.2F}, std::nullopt, {9, 1}));
+  EXPECT_TRUE(joins({-0.5F, 0.1F}, {0.5F, 0.1F}, std::nullopt, {4, 9})) << "I would not come between 4 and 9";
+  EXPECT_FALSE(joins({-0.5F, 0.1F}, {0.5F, 0.1F}, std::nullopt, {9, 4})) << "but between 9 and 4";
+  EXPECT_TRUE(joins({-0.5F, 0.1F}, {0.5F, 0.1F}, std::nullopt, {9, 1}));
 }
 
 TEST(Convoy, ASpareInTheWayJoinsIfNobodyHidesAnEndFromIt) {
-  EXPECT_TRUE(joins({-1.0F, 0.0F}, {1.0F, 0.0F}, Vec2{0.5F, 0.12F}));
-  EXPECT_FALSE(joins({-1.0F, 0.0F}, {1.0F, 0.0F}, Vec2{0.5F, 0.06F}));
+  EXPECT_TRUE(joins({-0.5F, 0.0F}, {0.5F, 0.0F}, Vec2{0.25F, 0.06F}));
+  EXPECT_FALSE(joins({-0.5F, 0.0F}, {0.5F, 0.0F}, Vec2{0.25F, 0.03F}));
 }
 
 // Both are blocked, but 3 can be heard past 5; 4 hides 2, which is nearer to me and to the root.
 TEST(Convoy, PrefersABlockedParentThatItStillSees) {
   ConvoyBench bench = grown<Convoy>();
   bench.state.phase = Phase::select_parent;
-  bench.state.label_cm = 200;
-  bench.send({-5.0F, 0.0F});
-  bench.put(2, {1.0F, 0.0F}).label_cm = 50;
-  bench.put(3, {0.0F, 1.2F}).label_cm = 100;
-  bench.put(4, {0.5F, 0.02F}).role = Role::spare;
-  bench.put(5, {0.12F, 0.6F}).role = Role::spare;
+  bench.state.label = 200;
+  bench.send({-2.5F, 0.0F});
+  bench.put(2, {0.5F, 0.0F}).label = 50;
+  bench.put(3, {0.0F, 0.6F}).label = 100;
+  bench.put(4, {0.25F, 0.01F}).role = Role::spare;
+  bench.put(5, {0.06F, 0.3F}).role = Role::spare;
   EXPECT_EQ(bench.step().message.parent, 3);
 }
 
@@ -93,36 +93,36 @@ TEST(Convoy, ATreeThatHasArrivedKeepsTheEdgesOfTheOldOne) {
     ConvoyBench bench = grown<Convoy>();
     bench.state.epoch = epoch;
     bench.state.phase = Phase::select_parent;
-    bench.state.label_cm = 200;
+    bench.state.label = 200;
     bench.state.old_parent = 2;
-    bench.send({0.0F, 0.1F});
-    bench.put(2, {1.5F, 0.0F}).label_cm = 100;
-    bench.put(3, {0.0F, 0.5F}).label_cm = 50;
+    bench.send({0.0F, 0.05F});
+    bench.put(2, {0.75F, 0.0F}).label = 100;
+    bench.put(3, {0.0F, 0.25F}).label = 50;
     EXPECT_EQ(bench.step().message.parent, 2) << epoch;
   }
 }
 
 // Over a longer link comes a label with which no parent is found.
 TEST(Convoy, ARobotOfATreeThatHasArrivedWaitsForALabelOverALinkThatMayBeAnEdge) {
-  const auto label_after = [](int ticks, bool member, std::uint16_t want_cm) {
+  const auto label_after = [](int ticks, bool member, std::uint16_t want) {
     ConvoyBench bench = grown<Convoy>();
     bench.state.phase = Phase::start_tree;
-    bench.state.label_cm = unknown_label;
+    bench.state.label = unknown_label;
     bench.state.parent = nobody;
     if (member) {
-      ConvoyMessage& worker = bench.put_child(4, {0.5F, 0}, Role::worker);
-      worker.label_cm = unknown_label;
+      ConvoyMessage& worker = bench.put_child(4, {0.25F, 0}, Role::worker);
+      worker.label = unknown_label;
       worker.subtree_workers = 1;
-      worker.want_cm = want_cm;
+      worker.want = want;
     }
-    bench.put(9, {1.95F, 0}).label_cm = 0;
+    bench.put(9, {0.975F, 0}).label = 0;
     bench.steps(ticks);
-    return bench.state.label_cm;
+    return bench.state.label;
   };
   EXPECT_EQ(label_after(20, true, 0), unknown_label);
-  EXPECT_EQ(label_after(40, true, 0), 195) << "not for ever";
-  EXPECT_EQ(label_after(20, true, 100), 195) << "its worker has not arrived";
-  EXPECT_EQ(label_after(20, false, 0), 195) << "a spare needs no parent";
+  EXPECT_EQ(label_after(40, true, 0), 250) << "not for ever";
+  EXPECT_EQ(label_after(20, true, 128), 250) << "its worker has not arrived";
+  EXPECT_EQ(label_after(20, false, 0), 250) << "a spare needs no parent";
 }
 
 }  // namespace

@@ -9,27 +9,27 @@
 namespace banyan {
 namespace {
 
-// A connector (id 1) of the chain 9 - 2 - 1; its child 3 is a junction between 4, which has 19 m to go and calls in
+// A connector (id 1) of the chain 9 - 2 - 1; its child 3 is a junction between 4, which has 9.5 C to go and calls in
 // vain, and 5, which is nearly there. Both of its edges are as long as they may be.
 class BesideAJunction : public ConvoyChain {
  protected:
   BesideAJunction() {
     bench.state.root_size = 1000;
-    bench.state.want_m = 19.0F;
-    bench.move(3, {0.6F, 0.0F});
+    bench.state.want = 9.5F;
+    bench.move(3, {0.3F, 0.0F});
     auto& junction = bench.say(3);
     junction.role = Role::connector;
     junction.child_count = 2;
-    junction.want_cm = 1900;
+    junction.want = 2432;
     junction.call_hops = 1;
-    put_branch(4, {0.6F, 1.88F}, 1900).call_hops = 0;
-    put_branch(5, {0.6F, -1.88F}, 17);
+    put_branch(4, {0.3F, 0.94F}, 2432).call_hops = 0;
+    put_branch(5, {0.3F, -0.94F}, 22);
   }
-  ConvoyMessage& put_branch(RobotId id, Vec2 position, std::uint16_t want_cm) {
+  ConvoyMessage& put_branch(RobotId id, Vec2 position, std::uint16_t want) {
     auto& m = bench.put(id, position);
     m.role = Role::connector;
     m.parent = 3;
-    m.want_cm = want_cm;
+    m.want = want;
     return m;
   }
 };
@@ -37,7 +37,7 @@ class BesideAJunction : public ConvoyChain {
 TEST_F(BesideAJunction, ItComesUpTowardsTheBranchThatHasLeastToGo) {
   EXPECT_GT(motion().x, 0.5F);
   EXPECT_LT(motion().y, -0.3F);
-  bench.move(3, {0.1F, 0.0F});
+  bench.move(3, {0.05F, 0.0F});
   EXPECT_LT(motion().y, -0.5F);
 }
 
@@ -86,21 +86,21 @@ TEST_F(BesideAJunction, AWorkerWithABranchOfItsOwnIsHelpedTowardsThatBranch) {
 // Its own edges would hold it back where robots are short: they share their slack.
 TEST_F(BesideAJunction, OnItsWayItSharesNoSlack) {
   bench.state.call_hops = 2;
-  bench.move(2, {-1.6F, 0.0F});
+  bench.move(2, {-0.8F, 0.0F});
   EXPECT_GT(motion().x, 0.5F);
   bench.say(3).call_hops = 5;
   EXPECT_LT(motion().x, 0.0F);
 }
 
 TEST_F(ConvoyChain, AJunctionOfALargeSwarmFollowsWhileItsParentIsNear) {
-  auto& other = bench.put(4, {1.6F, 0.6F});
+  auto& other = bench.put(4, {0.8F, 0.3F});
   other = bench.say(3);
   other.id = 4;
-  bench.move(2, {-0.6F, 0.0F});
+  bench.move(2, {-0.3F, 0.0F});
   const float waits = motion().x;
   bench.state.root_size = 1000;
   EXPECT_GT(motion().x, waits + 0.5F);
-  bench.move(2, {-1.2F, 0.0F});
+  bench.move(2, {-0.6F, 0.0F});
   EXPECT_LT(motion().x, waits + 0.2F);
 }
 
@@ -109,12 +109,12 @@ class BranchOfAJunction : public ConvoyChain {
  protected:
   BranchOfAJunction() {
     bench.state.root_size = 1000;
-    bench.state.want_m = 4.0F;
+    bench.state.want = 2.0F;
     auto& junction = bench.say(2);
     junction.child_count = 2;
     junction.call_hops = 1;
-    junction.want_cm = 1900;
-    put_root({-1.2F, 0.35F});
+    junction.want = 2432;
+    put_root({-0.6F, 0.175F});
   }
 };
 
@@ -135,15 +135,15 @@ TEST_F(BranchOfAJunction, StaysInASmallSwarmOrWhereNobodyCallsOrWhileASpareJoins
 
 TEST_F(BranchOfAJunction, OfBranchesThatCallTheOneThatGoesFarthestStays) {
   bench.state.call_hops = 0;
-  bench.say(2).want_cm = 400;
+  bench.say(2).want = 512;
   EXPECT_EQ(parent_after_shortcuts(), 2);
-  bench.say(2).want_cm = 1900;
+  bench.say(2).want = 2432;
   EXPECT_EQ(parent_after_shortcuts(), 9);
 }
 
 // A longer edge would be in need at once; a branch that calls is in need already.
 TEST_F(BranchOfAJunction, TakesALongEdgeOnlyIfItCallsItself) {
-  bench.move(9, {-1.7F, 0.4F});
+  bench.move(9, {-0.85F, 0.2F});
   EXPECT_EQ(parent_after_shortcuts(), 2);
   bench.state.call_hops = 0;
   EXPECT_EQ(parent_after_shortcuts(), 9);

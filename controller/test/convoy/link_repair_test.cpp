@@ -13,18 +13,18 @@ namespace {
 class EndangeredEdge : public ConvoyChain {
  protected:
   EndangeredEdge() {
-    bench.put_connector(5, {-0.5F, 0.3F}, 400, 50);
+    bench.put_connector(5, {-0.25F, 0.15F}, 400, 50);
     bench.say(2).child_count = 2;
-    bench.put(6, {-0.7F, -0.09F}).role = Role::spare;
+    bench.put(6, {-0.35F, -0.045F}).role = Role::spare;
   }
 };
 
 TEST_F(ConvoyChain, AHiddenParentIsReplacedByWhoeverIsAheadAndInSight) {
-  auto& spare = bench.put(5, {-0.5F, 0.5F});
+  auto& spare = bench.put(5, {-0.25F, 0.25F});
   spare.role = Role::spare;
   spare.tree_hops = 1;
   spare.seqno = 52;
-  spare.label_cm = 150;
+  spare.label = 150;
   bench.tick();
   bench.silence(2);
   EXPECT_EQ(parent_after_shortcuts(), 2);  // one lost packet is no reason
@@ -32,10 +32,10 @@ TEST_F(ConvoyChain, AHiddenParentIsReplacedByWhoeverIsAheadAndInSight) {
 }
 
 TEST_F(ConvoyChain, AParentAboutToBeHiddenIsReplacedInTime) {
-  bench.put_connector(5, {-0.5F, 0.3F}, 120, 52);
+  bench.put_connector(5, {-0.25F, 0.15F}, 120, 52);
   bench.say(2).child_count = 2;  // or it would be released
   EXPECT_EQ(parent_after_shortcuts(), 2);
-  auto& walker = bench.put(6, {-0.7F, -0.09F});
+  auto& walker = bench.put(6, {-0.35F, -0.045F});
   walker.role = Role::spare;
   EXPECT_EQ(parent_after_shortcuts(), 5);
 }
@@ -44,9 +44,9 @@ TEST_F(ConvoyChain, AParentAboutToBeHiddenIsReplacedInTime) {
 // a silent parent is.
 TEST_F(ConvoyChain, WithCompanionsNobodyEndangersAnEdgeWhereRobotsHideNothing) {
   bench.params.link_redundancy = 2;
-  bench.put_connector(5, {-0.5F, 0.3F}, 120, 52);
+  bench.put_connector(5, {-0.25F, 0.15F}, 120, 52);
   bench.say(2).child_count = 2;  // or it would be released
-  bench.put(6, {-0.7F, -0.09F}).role = Role::spare;
+  bench.put(6, {-0.35F, -0.045F}).role = Role::spare;
   bench.params.line_of_sight = false;
   EXPECT_EQ(parent_after_shortcuts(), 2);
   auto restore = bench.state;
@@ -82,7 +82,7 @@ TEST_F(EndangeredEdge, NeverHangsOnItsOwnDescendant) {
 
 // What is about to cut the edge is hidden from me, but not from my parent.
 TEST_F(EndangeredEdge, IsGivenUpWhenTheParentWarns) {
-  bench.move(6, {0.0F, 1.5F});
+  bench.move(6, {0.0F, 0.75F});
   bench.say(5).seqno = 52;
   EXPECT_EQ(parent_after_shortcuts(), 2);
   bench.say(2).warned = 1;
@@ -90,17 +90,17 @@ TEST_F(EndangeredEdge, IsGivenUpWhenTheParentWarns) {
 }
 
 TEST_F(ConvoyChain, WarnsAChildWhoseSightIsAboutToBeCut) {
-  bench.put(6, {0.8F, 0.2F}).role = Role::spare;
+  bench.put(6, {0.4F, 0.1F}).role = Role::spare;
   EXPECT_EQ(bench.step().message.warned, nobody);
-  bench.move(6, {0.8F, 0.1F});
+  bench.move(6, {0.4F, 0.05F});
   EXPECT_EQ(bench.step().message.warned, 3);
 }
 
 TEST_F(ConvoyChain, StepsBeforeItsParentWhenItHidesItFromTheGrandparent) {
   bench.say(2).child_count = 2;  // or it would be released
-  put_root({0.8F, 0.6F});
+  put_root({0.4F, 0.3F});
   EXPECT_EQ(parent_after_shortcuts(), 2);
-  bench.move(9, {0.8F, 0.05F});
+  bench.move(9, {0.4F, 0.025F});
   EXPECT_EQ(parent_after_shortcuts(), 9);
 }
 

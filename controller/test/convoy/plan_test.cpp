@@ -30,7 +30,7 @@ ConvoyBench commander(const std::vector<Vec2>& targets, int robots) {
   ConvoyBench bench = grown<Convoy>();
   bench.state.root = {1, 1};
   bench.state.role = Role::root;
-  auto& child = bench.put(5, {1.5F, 0});
+  auto& child = bench.put(5, {0.75F, 0});
   child.role = Role::connector;
   child.parent = 1;
   child.committed = true;
@@ -47,12 +47,12 @@ void run(ConvoyBench& bench, int ticks) {
     auto robot = bench.tick();
     bench.state.subtree = bench.say(5).subtree + 1;
     bench.state.subtree_workers = bench.say(5).subtree_workers;
-    bench.state.want_m = static_cast<float>(bench.say(5).want_cm) * 0.01F;
+    bench.state.want = from_fixed(bench.say(5).want);
     take_part_in_plan(robot);
   }
 }
 
-int ticks_until_plan(const ConvoyBench& bench) { return bench.params.ticks(bench.params.plan_after_s); }
+int ticks_until_plan(const ConvoyBench& bench) { return bench.params.rounds(bench.params.plan_after_drives); }
 
 // Kruskal's algorithm, as an independent judge.
 std::vector<float> shortest_edges(const std::vector<Vec2>& points) {
@@ -75,8 +75,8 @@ std::vector<float> shortest_edges(const std::vector<Vec2>& points) {
 std::vector<Vec2> arbitrary_targets(std::size_t least) {
   std::vector<Vec2> targets(*rc::gen::inRange<std::size_t>(least, task_capacity + 1));
   for (Vec2& t : targets)
-    t = {static_cast<float>(*rc::gen::inRange(-900, 901)) * 0.01F,
-         static_cast<float>(*rc::gen::inRange(-900, 901)) * 0.01F};
+    t = {static_cast<float>(*rc::gen::inRange(-900, 901)) * 0.005F,
+         static_cast<float>(*rc::gen::inRange(-900, 901)) * 0.005F};
   return targets;
 }
 
@@ -95,14 +95,14 @@ RC_GTEST_PROP(Plan, IsAShortestTreeThroughTheTargets, ()) {
   }
   RC_ASSERT(hosted == static_cast<int>(targets.size()) - 1);
   const std::vector<float> shortest = shortest_edges(targets);
-  RC_ASSERT(std::abs(length - std::accumulate(shortest.begin(), shortest.end(), 0.0F)) < 1e-3F);
+  RC_ASSERT(std::abs(length - std::accumulate(shortest.begin(), shortest.end(), 0.0F)) < 5e-4F);
 }
 
 // Robots that edges of that length take, from one target to all others: by Kruskal's algorithm, whose edges Prim's
 // finds, too.
-int robots_of(const std::vector<Vec2>& targets, float edge_m) {
+int robots_of(const std::vector<Vec2>& targets, float edge) {
   int robots = 1;
-  for (const float d : shortest_edges(targets)) robots += static_cast<int>(d / edge_m) + 1;
+  for (const float d : shortest_edges(targets)) robots += static_cast<int>(d / edge) + 1;
   return robots;
 }
 
@@ -112,7 +112,7 @@ RC_GTEST_PROP(Plan, CountsWhetherRobotsSufficeForFolding, ()) {
   ConvoyBench bench = commander(targets, 10);
   bench.params.link_redundancy = *rc::gen::inRange(2, 4);
   const auto paths =
-      static_cast<float>(robots_of(targets, bench.params.compact_distance_m) * bench.params.link_redundancy);
+      static_cast<float>(robots_of(targets, bench.params.compact_distance) * bench.params.link_redundancy);
   const auto too_few_with = [&](float robots) {
     bench.state.root_size = static_cast<RobotCount>(robots);
     run(bench, 16);
@@ -127,7 +127,7 @@ RC_GTEST_PROP(Plan, CountsWhetherRobotsSufficeForFolding, ()) {
 }
 
 TEST(Plan, DoesNotCountTargetsThatAreGivenUpForFolding) {
-  ConvoyBench bench = commander({{6, 0}, {-6, 0}, {0, 60}}, 10);
+  ConvoyBench bench = commander({{3, 0}, {-3, 0}, {0, 30}}, 10);
   bench.params.link_redundancy = 2;
   bench.state.root_size = 40;
   run(bench, 16);
@@ -139,7 +139,7 @@ TEST(Plan, DoesNotCountTargetsThatAreGivenUpForFolding) {
 
 TEST(Plan, CountsForFoldingOnlyWhereBranchesMayFold) {
   const auto too_few = [](int paths, bool line_of_sight) {
-    ConvoyBench bench = commander({{6, 0}, {-6, 0}}, 10);
+    ConvoyBench bench = commander({{3, 0}, {-3, 0}}, 10);
     bench.params.link_redundancy = paths;
     bench.params.line_of_sight = line_of_sight;
     bench.state.root_size = 3;
@@ -152,12 +152,12 @@ TEST(Plan, CountsForFoldingOnlyWhereBranchesMayFold) {
 }
 
 TEST(Plan, WaitsUntilAllHaveBeenThereForAWhileAndIsForgottenWhenOneLeaves) {
-  ConvoyBench bench = commander({{6, 0}, {6, 3}, {-6, 0}}, 60);
+  ConvoyBench bench = commander({{3, 0}, {3, 1.5F}, {-3, 0}}, 60);
   run(bench, ticks_until_plan(bench) - 1);
   EXPECT_FALSE(is_planned(bench.state));
   run(bench, 1);
   EXPECT_TRUE(is_planned(bench.state));
-  bench.say(5).want_cm = 100;
+  bench.say(5).want = 128;
   run(bench, 20);
   EXPECT_TRUE(is_planned(bench.state));  // a branch that changes its parent may not be counted for a moment
   run(bench, 20);
@@ -165,28 +165,28 @@ TEST(Plan, WaitsUntilAllHaveBeenThereForAWhileAndIsForgottenWhenOneLeaves) {
 }
 
 TEST(Plan, NeverForATreeThatIsAsSmall) {
-  ConvoyBench bench = commander({{6, 0}, {6, 3}, {-6, 0}}, 10);  // 12 m and 3 m: seven and two edges
+  ConvoyBench bench = commander({{3, 0}, {3, 1.5F}, {-3, 0}}, 10);  // 6 C and 1.5 C: seven and two edges
   run(bench, 3000);
   EXPECT_FALSE(is_planned(bench.state));
 }
 
 TEST(Plan, NeverForMoreTargetsThanAreKnown) {
-  ConvoyBench bench = commander({{6, 0}, {6, 3}, {-6, 0}}, 60);
+  ConvoyBench bench = commander({{3, 0}, {3, 1.5F}, {-3, 0}}, 60);
   bench.say(5).subtree_workers = 4;
   run(bench, 3000);
   EXPECT_FALSE(is_planned(bench.state));
 }
 
 TEST(Plan, NeverWhenSwitchedOff) {
-  ConvoyBench bench = commander({{6, 0}, {6, 3}, {-6, 0}}, 60);
-  bench.params.plan_after_s = 0.0F;
+  ConvoyBench bench = commander({{3, 0}, {3, 1.5F}, {-3, 0}}, 60);
+  bench.params.plan_after_drives = 0.0F;
   run(bench, 3000);
   EXPECT_FALSE(is_planned(bench.state));
 }
 
 TEST(Plan, MayBeAskedForLaterThanItsPeriod) {
-  ConvoyBench bench = commander({{6, 0}, {6, 3}, {-6, 0}}, 60);
-  bench.params.plan_after_s = 100.0F;
+  ConvoyBench bench = commander({{3, 0}, {3, 1.5F}, {-3, 0}}, 60);
+  bench.params.plan_after_drives = 10.0F;
   run(bench, ticks_until_plan(bench) - 1);
   EXPECT_FALSE(is_planned(bench.state));
   run(bench, 1);
@@ -194,7 +194,7 @@ TEST(Plan, MayBeAskedForLaterThanItsPeriod) {
 }
 
 TEST(Plan, GrowsLevelByLevel) {
-  ConvoyBench bench = commander({{2, 0}, {4, 0}, {6, 0}, {8, 0}}, 60);
+  ConvoyBench bench = commander({{1, 0}, {2, 0}, {3, 0}, {4, 0}}, 60);
   run(bench, ticks_until_plan(bench));
   const auto hosted = [&] {
     return std::count_if(bench.state.hosts.begin(), bench.state.hosts.end(),
@@ -206,7 +206,7 @@ TEST(Plan, GrowsLevelByLevel) {
 }
 
 TEST(Plan, WithThriftGrowsFromItsLeavesInwards) {
-  ConvoyBench bench = commander({{0, 0}, {3, 0}, {6, 0}, {9, 0}, {12, 0}}, 60);
+  ConvoyBench bench = commander({{0, 0}, {1.5F, 0}, {3, 0}, {4.5F, 0}, {6, 0}}, 60);
   bench.params.thrift = 1.0F;
   run(bench, ticks_until_plan(bench));
   EXPECT_EQ(bench.state.hosts[0], 101);  // the ends first: the centre is target 102
@@ -220,22 +220,22 @@ TEST(Plan, WithThriftGrowsFromItsLeavesInwards) {
 
 TEST(Thrift, StretchesLengthsTowardsTheLongestEdge) {
   ConvoyParams p = convoy_defaults();
-  EXPECT_EQ(thrifty_m(p, p.merge_distance_m), p.merge_distance_m) << "0: to the bit";
-  float before = p.merge_distance_m;
+  EXPECT_EQ(thrifty(p, p.merge_distance), p.merge_distance) << "0: to the bit";
+  float before = p.merge_distance;
   for (const float thrift : {0.25F, 0.5F, 1.0F}) {
     p.thrift = thrift;
-    EXPECT_GT(thrifty_m(p, p.merge_distance_m), before);
-    EXPECT_LT(thrifty_m(p, p.merge_distance_m), p.ideal_distance_m);
-    before = thrifty_m(p, p.merge_distance_m);
+    EXPECT_GT(thrifty(p, p.merge_distance), before);
+    EXPECT_LT(thrifty(p, p.merge_distance), p.ideal_distance);
+    before = thrifty(p, p.merge_distance);
   }
 }
 
-// Two near targets are held, of two far ones the farther is 2 m from its worker, and spares are called.
+// Two near targets are held, of two far ones the farther is 1 C from its worker, and spares are called.
 ConvoyBench starving() {
-  ConvoyBench bench = commander({{2, 0}, {3, 0}, {6, 0}, {-12, 0}}, 12);
+  ConvoyBench bench = commander({{1, 0}, {1.5F, 0}, {3, 0}, {-6, 0}}, 12);
   bench.state.tasks[0].reached = bench.state.tasks[1].reached = true;
   bench.state.call_hops = 3;
-  bench.say(5).want_cm = 200;
+  bench.say(5).want = 256;
   return bench;
 }
 bool gives_up(const ConvoyBench& bench, int k) {
@@ -249,7 +249,7 @@ int given_up(const ConvoyBench& bench) {
 
 TEST(Shed, TheTargetThatCostsMostIsGivenUpOnceNobodyGetsOn) {
   ConvoyBench bench = starving();
-  const int after = bench.params.ticks(bench.params.shed_after_s);
+  const int after = bench.params.rounds(bench.params.shed_after_drives);
   run(bench, after);
   EXPECT_EQ(given_up(bench), 0);
   run(bench, 2);
@@ -280,11 +280,11 @@ TEST(Shed, NotWhileAnybodyGetsOnOrNoSpareIsMissed) {
   for (const int what : {0, 1, 2, 3}) {
     ConvoyBench bench = starving();
     if (what == 1) bench.state.call_hops = nobody_calls;
-    if (what == 2) bench.params.shed_after_s = 0.0F;
-    if (what == 3) bench.say(5).want_cm = 3000;
+    if (what == 2) bench.params.shed_after_drives = 0.0F;
+    if (what == 3) bench.say(5).want = 3840;
     for (int second = 0; second < 150; ++second) {
       run(bench, 10);
-      if (what == 3) bench.say(5).want_cm -= 15;
+      if (what == 3) bench.say(5).want -= 20;
     }
     EXPECT_EQ(given_up(bench), what == 0 ? 1 : 0) << what;
   }
@@ -296,8 +296,8 @@ TEST(Shed, TheWorkerThatHearsOfItIsNoWorkerAnyMoreAndNobodyFollows) {
   bench.state.is_worker = true;
   bench.state.serves = 101;
   bench.state.parent = 5;
-  know(bench.state, {{6, 0}, {6, 3}});
-  auto& m = bench.put(5, {1.0F, 0.0F});
+  know(bench.state, {{3, 0}, {3, 1.5F}});
+  auto& m = bench.put(5, {0.5F, 0.0F});
   m.role = Role::connector;
   m.task_serves = m.task_host = 100;
   auto robot = bench.tick();
@@ -318,7 +318,7 @@ TEST(Shed, TheWorkerThatHearsOfItIsNoWorkerAnyMoreAndNobodyFollows) {
 
 // Three targets are held with 12 robots; a fourth, which takes seven more, has been put off.
 ConvoyBench with_one_put_off(int spares) {
-  ConvoyBench bench = commander({{2, 0}, {3, 0}, {6, 0}, {-12, 0}}, 12);
+  ConvoyBench bench = commander({{1, 0}, {1.5F, 0}, {3, 0}, {-6, 0}}, 12);
   for (Task& task : bench.state.tasks) task.reached = true;
   Task& task = bench.state.tasks[3];
   task.holder = nobody;
@@ -354,7 +354,7 @@ TEST(Retry, ATargetThatHasEndedIsNot) {
 
 TEST(Retry, NotBeforeTheOthersAreHeld) {
   ConvoyBench bench = with_one_put_off(20);
-  bench.say(5).want_cm = 100;
+  bench.say(5).want = 128;
   run(bench, 200);
   EXPECT_FALSE(tries(bench));
 }
@@ -372,11 +372,11 @@ TEST(Retry, ThePauseDoublesUnlessThereAreMoreSparesThanEver) {
     ConvoyBench bench = with_one_put_off(8);
     bench.state.tried_with = static_cast<std::uint16_t>(tried_with);
     bench.state.tasks[3].times_put_off = 3;
-    bench.state.tasks[3].age_ticks = static_cast<std::uint16_t>(bench.params.ticks(239.0F));
+    bench.state.tasks[3].age_ticks = 2390;
     run(bench, 200);
     EXPECT_EQ(tries(bench), tried_with == 7) << tried_with;
     if (!tries(bench)) {
-      bench.state.tasks[3].age_ticks = static_cast<std::uint16_t>(bench.params.ticks(241.0F));
+      bench.state.tasks[3].age_ticks = 2410;
       run(bench, 1);
     }
     EXPECT_TRUE(tries(bench));
@@ -388,7 +388,7 @@ TEST(Retry, ItIsPutOffAgainIfNobodySetsOut) {
   ConvoyBench bench = with_one_put_off(7);
   run(bench, 100);
   ASSERT_TRUE(tries(bench));
-  bench.state.tasks[3].age_ticks = static_cast<std::uint16_t>(bench.params.ticks(61.0F));
+  bench.state.tasks[3].age_ticks = 610;
   run(bench, 1);
   EXPECT_TRUE(is_put_off(bench.state.tasks[3]));
   EXPECT_EQ(bench.state.tasks[3].times_put_off, 2);
@@ -397,7 +397,7 @@ TEST(Retry, ItIsPutOffAgainIfNobodySetsOut) {
 TEST(Retry, NoOtherTargetIsGivenUpForIt) {
   ConvoyBench bench = starving();  // the target that costs most is 103
   bench.state.tasks[2].times_put_off = 1;
-  run(bench, bench.params.ticks(bench.params.shed_after_s));
+  run(bench, bench.params.rounds(bench.params.shed_after_drives));
   EXPECT_TRUE(gives_up(bench, 2));
   EXPECT_FALSE(gives_up(bench, 3));
 }
@@ -418,9 +418,9 @@ TEST(Plan, TravelsDownTheTreeFromTheParentOnly) {
   ConvoyBench bench = grown<Convoy>();
   bench.state.role = Role::connector;
   bench.state.parent = 5;
-  know(bench.state, {{6, 0}, {6, 3}});
+  know(bench.state, {{3, 0}, {3, 1.5F}});
   for (const RobotId id : {RobotId{5}, RobotId{6}}) {
-    auto& m = bench.put(id, {1.0F, id == 5 ? 0.5F : -0.5F});
+    auto& m = bench.put(id, {0.5F, id == 5 ? 0.25F : -0.25F});
     m.role = Role::connector;
     m.task_serves = 101;
     m.task_host = id == 5 ? RobotId{100} : RobotId{77};
@@ -440,17 +440,17 @@ class Leader : public testing::Test {
     s.role = Role::connector;
     s.parent = 5;
     s.committed = true;
-    s.label_cm = 400;
+    s.label = 400;
     s.seqno = 50;
     s.subtree_workers = 1;
     s.depth = 3;
-    know(s, {{0, 6}, {4, 4}});
+    know(s, {{0, 3}, {2, 2}});
     s.hosts[1] = 100;
-    put(5, {-1.0F, 0}, nobody);
-    put(6, {-0.5F, 1.5F}, 100);
-    auto& child = put(7, {1.2F, 1.2F}, 101);
+    put(5, {-0.5F, 0}, nobody);
+    put(6, {-0.25F, 0.75F}, 100);
+    auto& child = put(7, {0.6F, 0.6F}, 101);
     child.parent = 1;
-    child.label_cm = 600;
+    child.label = 600;
     child.child_count = 1;
     child.subtree_workers = 1;
   }
@@ -458,7 +458,7 @@ class Leader : public testing::Test {
     auto& m = bench.put(id, position);
     m.role = Role::connector;
     m.committed = true;
-    m.label_cm = 200;
+    m.label = 200;
     m.seqno = 60;
     m.depth = 2;
     m.parent = 9;
@@ -496,7 +496,7 @@ TEST_F(Leader, IsDoneOnceItsBranchBeginsAtTheHost) {
 }
 
 TEST_F(Leader, HasNoBranchOfItsOwnAtAJunction) {
-  auto& other = put(8, {1.2F, -1.2F}, 102);
+  auto& other = put(8, {0.6F, -0.6F}, 102);
   other.parent = 1;
   tick();
   EXPECT_EQ(bench.state.below, nobody);
@@ -514,7 +514,7 @@ TEST_F(Leader, StepsToTheNextRobotOnTheWay) {
 }
 
 TEST_F(Leader, AsksForASpareWhenItIsHeldBack) {
-  bench.move(5, {-1.75F, 0});
+  bench.move(5, {-0.875F, 0});
   tick();
   EXPECT_FALSE(is_held_back(bench.tick()));
   for (int t = 0; t < 80; ++t) tick();

@@ -12,16 +12,16 @@ namespace banyan {
 namespace {
 
 TEST_F(ConvoyChain, AConnectorThatIsNotNeededAnyMoreIsReleased) {
-  put_root({-1.3F, 0.6F});
+  put_root({-0.65F, 0.3F});
   EXPECT_EQ(parent_after_shortcuts(), 9);
 }
 
 TEST_F(ConvoyChain, AConnectorIsKeptThatServesAnotherOrIsFarFromItsParent) {
-  put_root({-1.3F, 0.6F});
+  put_root({-0.65F, 0.3F});
   bench.say(2).child_count = 2;
   EXPECT_EQ(parent_after_shortcuts(), 2);
   bench.say(2).child_count = 1;
-  bench.move(9, {-1.6F, 0.6F});
+  bench.move(9, {-0.8F, 0.3F});
   EXPECT_EQ(parent_after_shortcuts(), 2);
 }
 
@@ -31,7 +31,7 @@ class FoldedChain : public ConvoyChain {
   FoldedChain() {
     bench.params.link_redundancy = 2;
     bench.params.line_of_sight = true;
-    bench.state.want_m = 0.0F;
+    bench.state.want = 0.0F;
     bench.state.subtree_workers = 1;
   }
 };
@@ -39,10 +39,10 @@ class FoldedChain : public ConvoyChain {
 // Where a branch folds, its short edges are needed: a robot is released only if that leaves a short one.
 TEST_F(FoldedChain, AConnectorIsReleasedOnlyIfTheEdgeStaysShort) {
   auto restore = bench.state;
-  put_root({-1.3F, 0.6F});
+  put_root({-0.65F, 0.3F});
   EXPECT_EQ(parent_after_shortcuts(), 2);
   bench.state = restore;
-  bench.move(9, {-0.7F, 0.5F});
+  bench.move(9, {-0.35F, 0.25F});
   EXPECT_EQ(parent_after_shortcuts(), 9);
 }
 
@@ -50,12 +50,12 @@ TEST_F(FoldedChain, AConnectorIsReleasedOnlyIfTheEdgeStaysShort) {
 TEST_F(FoldedChain, ANearParentSavesASpare) {
   bench.state.need = Need::need;
   bench.say(2).child_count = 2;
-  bench.move(2, {-1.2F, 0.0F});
+  bench.move(2, {-0.6F, 0.0F});
   auto restore = bench.state;
-  bench.put_connector(5, {-0.6F, 1.0F}, 120, 52);
+  bench.put_connector(5, {-0.3F, 0.5F}, 120, 52);
   EXPECT_EQ(parent_after_shortcuts(), 2);
   bench.state = restore;
-  bench.move(5, {-0.5F, 0.7F});
+  bench.move(5, {-0.25F, 0.35F});
   EXPECT_EQ(parent_after_shortcuts(), 5);
 }
 
@@ -67,15 +67,15 @@ RC_GTEST_PROP(Convoy, ShortcutsKeepTheOrderOfTheTree, ()) {
   bench.state.is_worker = bench.state.role == Role::worker;
   bench.state.parent = 2;
   bench.state.committed = true;
-  bench.state.label_cm = static_cast<std::uint16_t>(50 + below(200));
+  bench.state.label = static_cast<std::uint16_t>(50 + below(200));
   bench.state.seqno = static_cast<std::uint16_t>(40 + below(20));
   const int count = 2 + below(8);
   for (int k = 0; k < count; ++k) {
     auto& m = bench.put(static_cast<RobotId>(2 + k),
-                        {static_cast<float>(below(360) - 180) * 0.01F, static_cast<float>(below(360) - 180) * 0.01F});
+                        {static_cast<float>(below(360) - 180) * 0.005F, static_cast<float>(below(360) - 180) * 0.005F});
     m.role = static_cast<Role>(below(4));
     m.parent = below(3) == 0 ? nobody : static_cast<RobotId>(1 + below(count + 2));
-    m.label_cm = static_cast<std::uint16_t>(below(300));
+    m.label = static_cast<std::uint16_t>(below(300));
     m.seqno = static_cast<std::uint16_t>(40 + below(20));
     m.depth = static_cast<std::uint16_t>(below(5));
     m.tree_hops = static_cast<std::uint8_t>(below(3));

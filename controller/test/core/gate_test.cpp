@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The gate: what no working sensor says does not pass, and all else does, as it is.
+// The gate: what no working sensor says does not pass, and all else does, lengths in C and times in rounds.
 #include "banyan/controller/core/gate.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -14,28 +15,68 @@ namespace banyan {
 namespace {
 
 const Platform platform;  // C = 2 m, ticks of 0.1 s
-constexpr float limit_m = 20.0F;
+constexpr std::array some_ranges_m{1.0F, 2.0F, 3.0F};
 
-std::vector<Vec2> obstacles_of(const Gate& gate) {
-  return {gate.senses().obstacles.begin(), gate.senses().obstacles.end()};
+Platform with_range(float range_m) {
+  Platform p;
+  p.communication_range_m = range_m;
+  return p;
 }
 
-TEST(Gate, LetsPassWhatAWorkingSensorSays) {
-  const std::vector<Vec2> obstacles{{0.1F, 0.2F}, {-0.3F, 0.0F}};
-  const Senses senses{.odometry = {0.02F, -0.01F, 0.3F},
-                      .orders = {true, Vec2{9.0F, -4.0F}, 7},
-                      .obstacles = obstacles,
-                      .elapsed_s = 0.1F};
-  const Gate gate(senses, platform);
-  EXPECT_EQ(gate.rejected(), 0U);
-  EXPECT_EQ(gate.senses().odometry.forward_m, 0.02F);
-  EXPECT_EQ(gate.senses().odometry.sideways_m, -0.01F);
-  EXPECT_EQ(gate.senses().odometry.turn_rad, 0.3F);
-  EXPECT_EQ(gate.senses().orders.target, (Vec2{9.0F, -4.0F}));
-  EXPECT_TRUE(gate.senses().orders.sent);
-  EXPECT_EQ(gate.senses().orders.given_up, 7);
-  EXPECT_EQ(gate.senses().obstacles.data(), obstacles.data()) << "nothing is copied without need";
-  EXPECT_EQ(gate.senses().obstacles.size(), 2U);
+std::vector<Vec2> obstacles_of(const Gate& gate) { return {gate.obstacles().begin(), gate.obstacles().end()}; }
+
+void expect_near(Vec2 a, Vec2 b, const char* what) {
+  EXPECT_FLOAT_EQ(a.x, b.x) << what;
+  EXPECT_FLOAT_EQ(a.y, b.y) << what;
+}
+
+struct Measured {
+  int name;
+  Vec2 position;
+  float age_s = 0.0F;
+};
+
+// All from the same numbers of metres.
+TEST(Gate, MakesMetresMultiplesOfC) {
+  for (const float c : some_ranges_m) {
+    const std::array obstacles{Vec2{0.1F, 0.2F}, Vec2{-0.3F, 0.0F}};
+    Gate gate({.odometry = {0.02F, -0.01F, 0.3F}, .orders = {true, Vec2{9.0F, -4.0F}, 7}, .obstacles = obstacles},
+              with_range(c));
+    std::array heard{Measured{5, {1.5F, -0.6F}}};
+    const auto passed = gate.packets(std::span<Measured>(heard), with_range(c));
+    EXPECT_EQ(gate.rejected(), 0U) << c;
+    expect_near(gate.carry().shift, {0.02F / c, -0.01F / c}, "odometry");
+    expect_near(gate.carry().rotation, {std::cos(0.3F), std::sin(0.3F)}, "a turn has no length");
+    ASSERT_TRUE(gate.orders().target.has_value());
+    expect_near(*gate.orders().target, {9.0F / c, -4.0F / c}, "target");
+    EXPECT_TRUE(gate.orders().sent);
+    EXPECT_EQ(gate.orders().given_up, 7);
+    ASSERT_EQ(gate.obstacles().size(), 2U);
+    expect_near(gate.obstacles()[0], {0.1F / c, 0.2F / c}, "obstacle");
+    expect_near(gate.obstacles()[1], {-0.3F / c, 0.0F}, "obstacle");
+    ASSERT_EQ(passed.size(), 1U);
+    EXPECT_EQ(passed[0].name, 5);
+    expect_near(passed[0].position, {1.5F / c, -0.6F / c}, "sender");
+  }
+}
+
+// A robot that drives 1 m/s along x and turns 0.5 rad/s; the sender stands still.
+TEST(Gate, CarriesAMeasurementOverTheSecondsSince) {
+  constexpr float step_s = 0.4F, age_s = 0.3F;
+  for (const float c : some_ranges_m)
+    for (const float tick_s : {0.1F, 0.05F}) {
+      Platform p = with_range(c);
+      p.tick_s = tick_s;
+      const auto seen = [](Vec2 place, float t) {
+        return rotate_back({std::cos(0.5F * t), std::sin(0.5F * t)}, place - Vec2{t, 0.0F});
+      };
+      const Vec2 sender{1.2F, 0.9F};
+      std::array heard{Measured{5, seen(sender, step_s - age_s), age_s}};
+      Gate gate({.odometry = {step_s, 0.0F, 0.5F * step_s}, .elapsed_s = step_s}, p);
+      const auto passed = gate.packets(std::span<Measured>(heard), p);
+      EXPECT_LT(distance(passed[0].position, seen(sender, step_s) / c), 1e-6F) << c << ' ' << tick_s;
+      EXPECT_EQ(passed[0].age_s, 0.0F) << "it is as of now";
+    }
 }
 
 TEST(Gate, ImpossibleOdometryCountsAsNoMotion) {
@@ -45,38 +86,41 @@ TEST(Gate, ImpossibleOdometryCountsAsNoMotion) {
         Odometry{15, 15, 0}, Odometry{0, 0, -1001}}) {
     const Gate gate({.odometry = bad}, platform);
     EXPECT_EQ(gate.rejected(), 1U);
-    EXPECT_EQ(gate.senses().odometry.forward_m, 0.0F);
-    EXPECT_EQ(gate.senses().odometry.sideways_m, 0.0F);
-    EXPECT_EQ(gate.senses().odometry.turn_rad, 0.0F);
+    EXPECT_EQ(gate.carry().shift, Vec2{});
+    EXPECT_EQ(gate.carry().rotation, (Vec2{1.0F, 0.0F}));
   }
   const Gate wide({.odometry = {19.9F, 0, -999}}, platform);
   EXPECT_EQ(wide.rejected(), 0U);
-  EXPECT_EQ(wide.senses().odometry.forward_m, 19.9F);
+  EXPECT_FLOAT_EQ(wide.carry().shift.x, 9.95F);
 }
 
 TEST(Gate, AnImpossibleTargetCountsAsNotSensed) {
-  for (const Vec2 bad : {Vec2{nan_m, 0}, Vec2{0, nan_m}, Vec2{infinite_m, 0}, Vec2{0, -infinite_m}, Vec2{1.1e6F, 0},
-                         Vec2{3e38F, 3e38F}}) {
-    const Gate gate({.orders = {true, bad}}, platform);
-    EXPECT_EQ(gate.rejected(), 1U);
-    EXPECT_FALSE(gate.senses().orders.target.has_value());
-    EXPECT_TRUE(gate.senses().orders.sent) << "it is still under way";
+  for (const float c : some_ranges_m) {
+    for (const Vec2 bad : {Vec2{nan_m, 0}, Vec2{0, nan_m}, Vec2{infinite_m, 0}, Vec2{0, -infinite_m},
+                           Vec2{1001.0F * c, 0}, Vec2{3e38F, 3e38F}}) {
+      const Gate gate({.orders = {true, bad}}, with_range(c));
+      EXPECT_EQ(gate.rejected(), 1U);
+      EXPECT_FALSE(gate.orders().target.has_value());
+      EXPECT_TRUE(gate.orders().sent) << "it is still under way";
+    }
+    EXPECT_TRUE(Gate({.orders = {true, Vec2{999.0F * c, 0}}}, with_range(c)).orders().target.has_value());
   }
-  EXPECT_TRUE(Gate({.orders = {true, Vec2{0.9e6F, 0}}}, platform).senses().orders.target.has_value());
 }
 
 TEST(Gate, AnImpossibleChargeCountsAsNotMeasured) {
   for (const float bad : {nan_m, infinite_m, -0.01F, 1.01F}) {
     const Gate gate({.charge = Charge{bad, true}}, platform);
     EXPECT_EQ(gate.rejected(), 1U) << bad;
-    EXPECT_FALSE(gate.senses().charge.has_value()) << bad;
+    EXPECT_FALSE(gate.charge().has_value()) << bad;
   }
   for (const float good : {0.0F, 0.5F, 1.0F})
-    EXPECT_TRUE(Gate({.charge = Charge{good, true}}, platform).senses().charge.has_value()) << good;
+    EXPECT_TRUE(Gate({.charge = Charge{good, true}}, platform).charge().has_value()) << good;
 }
 
 TEST(Gate, CountsWholeTicksAndAtLeastOne) {
-  const auto ticks = [](float elapsed_s) { return Gate({.elapsed_s = elapsed_s}, platform).elapsed_ticks(); };
+  const auto ticks = [](float elapsed_s, const Platform& p = platform) {
+    return Gate({.elapsed_s = elapsed_s}, p).elapsed_ticks();
+  };
   EXPECT_EQ(ticks(0.0F), 1);
   EXPECT_EQ(ticks(0.01F), 1);
   EXPECT_EQ(ticks(0.1F), 1);
@@ -86,37 +130,45 @@ TEST(Gate, CountsWholeTicksAndAtLeastOne) {
   for (const float bad : {nan_m, infinite_m, -0.1F, 3601.0F}) {
     EXPECT_EQ(ticks(bad), 1) << bad;
     EXPECT_EQ(Gate({.elapsed_s = bad}, platform).rejected(), 1U) << bad;
-    EXPECT_EQ(Gate({.elapsed_s = bad}, platform).senses().elapsed_s, 0.0F) << bad;
+    EXPECT_EQ(Gate({.elapsed_s = bad}, platform).elapsed(), 1.0F) << bad;
   }
+  Platform slow;
+  slow.tick_s = 0.5F;
+  EXPECT_EQ(ticks(0.5F, slow), 1);
+  EXPECT_EQ(ticks(3.1F, slow), 6);
+  EXPECT_EQ(ticks(18'000.0F, slow), 36'000);
+  EXPECT_EQ(ticks(18'001.0F, slow), 1) << "nobody sleeps for so many rounds";
+}
+
+TEST(Gate, TellsHowManyRoundsHavePassed) {
+  EXPECT_EQ(Gate({}, platform).elapsed(), 1.0F) << "an untimed step lasts one";
+  EXPECT_FLOAT_EQ(Gate({.elapsed_s = 0.22F}, platform).elapsed(), 2.2F);
+  EXPECT_FLOAT_EQ(Gate({.elapsed_s = 0.01F}, platform).elapsed(), 0.1F);
 }
 
 TEST(Gate, DropsImpossibleObstaclesAndKeepsTheOrderOfTheOthers) {
   const std::vector<Vec2> sensed{{1, 0}, {nan_m, 0}, {2, 0}, {0, infinite_m}, {20.1F, 0}, {3, 0}};
   const Gate gate({.obstacles = sensed}, platform);
-  EXPECT_EQ(obstacles_of(gate), (std::vector<Vec2>{{1, 0}, {2, 0}, {3, 0}}));
+  EXPECT_EQ(obstacles_of(gate), (std::vector<Vec2>{{0.5F, 0}, {1, 0}, {1.5F, 0}}));
   EXPECT_EQ(gate.rejected(), 3U);
 }
 
 TEST(Gate, OfMoreObstaclesThanItHoldsTheFirstCount) {
-  std::vector<Vec2> sensed;
-  for (std::size_t k = 0; k < most_obstacles; ++k) sensed.push_back({0.1F, 0.01F * static_cast<float>(k)});
-  EXPECT_EQ(obstacles_of(Gate({.obstacles = sensed}, platform)), sensed) << "just as many";
-  const std::vector<Vec2> first = sensed;
+  std::vector<Vec2> sensed, first;
+  for (std::size_t k = 0; k < most_obstacles; ++k) {
+    sensed.push_back({0.1F, 0.01F * static_cast<float>(k)});
+    first.push_back(sensed.back() * 0.5F);
+  }
+  EXPECT_EQ(obstacles_of(Gate({.obstacles = sensed}, platform)), first) << "just as many";
   for (int k = 0; k < 500; ++k) sensed.push_back({-0.2F, 0});
   const Gate gate({.obstacles = sensed}, platform);
   EXPECT_EQ(obstacles_of(gate), first);
   EXPECT_EQ(gate.rejected(), 0U) << "none of them is impossible";
   sensed[3] = sensed.back() = {nan_m, 0};
   const Gate other({.obstacles = sensed}, platform);
-  EXPECT_EQ(obstacles_of(other).back(), (Vec2{-0.2F, 0})) << "the next moves up";
+  EXPECT_EQ(obstacles_of(other).back(), (Vec2{-0.1F, 0})) << "the next moves up";
   EXPECT_EQ(other.rejected(), 2U) << "wherever they stand";
 }
-
-struct Measured {
-  int name;
-  Vec2 position;
-  float age_s = 0.0F;
-};
 
 TEST(Gate, DropsPacketsWhoseSenderCannotBeThere) {
   std::vector<Measured> heard{{0, {1, 0}},          {1, {nan_m, 0}}, {2, {0, 19.9F}},
@@ -141,29 +193,31 @@ TEST(Gate, DropsPacketsOfAnImpossibleAge) {
 }
 
 RC_GTEST_PROP(Gate, NothingBeyondItsLimitsPassesWhateverTheSensorsSay, ()) {
+  const Platform p = with_range(*rc::gen::elementOf(some_ranges_m));
+  const auto c = static_cast<double>(p.communication_range_m);
   std::vector<Vec2> obstacles(*rc::gen::inRange<std::size_t>(0, 100));
   for (Vec2& o : obstacles) o = {garbage(), garbage()};
   std::vector<Measured> heard(*rc::gen::inRange<std::size_t>(0, 20));
   for (Measured& m : heard) m = {0, {garbage(), garbage()}, garbage()};
   const Vec2 target{garbage(), garbage()};
   const Odometry odometry{garbage(), garbage(), garbage()};
-  Gate gate({.odometry = odometry, .orders = {true, target}, .obstacles = obstacles, .elapsed_s = garbage()}, platform);
+  Gate gate({.odometry = odometry, .orders = {true, target}, .obstacles = obstacles, .elapsed_s = garbage()}, p);
 
   const auto within = [](Vec2 v, double limit) {
     return std::isfinite(v.x) && std::isfinite(v.y) &&
            std::hypot(static_cast<double>(v.x), static_cast<double>(v.y)) <= limit * 1.000001;
   };
-  const Senses& passed = gate.senses();
-  RC_ASSERT(within({passed.odometry.forward_m, passed.odometry.sideways_m}, limit_m));
-  RC_ASSERT(std::fabs(passed.odometry.turn_rad) <= 1000.0F);
-  RC_ASSERT(passed.orders.target.has_value() == within(target, 1e6));
+  RC_ASSERT(within(gate.carry().shift, 10.0));
+  RC_ASSERT(std::fabs(norm(gate.carry().rotation) - 1.0F) < 1e-5F);
+  RC_ASSERT(gate.orders().target.has_value() == within(target, 1000.0 * c));
   RC_ASSERT(gate.elapsed_ticks() >= 1 && gate.elapsed_ticks() <= 36000);
-  for (const Vec2 o : passed.obstacles) RC_ASSERT(within(o, limit_m));
-  RC_ASSERT(passed.obstacles.size() <= most_obstacles);
+  RC_ASSERT(gate.elapsed() > 0.0F && gate.elapsed() <= 36000.0F);
+  for (const Vec2 o : gate.obstacles()) RC_ASSERT(within(o, 10.0));
+  RC_ASSERT(gate.obstacles().size() <= most_obstacles);
   const auto good = std::count_if(heard.begin(), heard.end(), [&](const Measured& m) {
-    return within(m.position, limit_m) && m.age_s >= 0.0F && m.age_s <= 3600.0F;
+    return within(m.position, 10.0 * c) && m.age_s >= 0.0F && m.age_s <= 3600.0F;
   });
-  RC_ASSERT(static_cast<long>(gate.packets(std::span<Measured>(heard), platform).size()) == good);
+  RC_ASSERT(static_cast<long>(gate.packets(std::span<Measured>(heard), p).size()) == good);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ class Table : public Neighbors {
     const auto must_stay = [&](RobotId id, const Said& said) {
       return id == keep[0] || id == keep[1] || said.parent == me || said.old_parent == me;
     };
-    begin(1, way_m);
+    begin(1, way);
     for (const Packet& p : packets) {
       Vec2 before;
       int k = file(p.id, p.position, before, carry);
@@ -47,7 +47,7 @@ class Table : public Neighbors {
     const auto keeps = [&](int k) { return id(k) == keep[0] || id(k) == keep[1]; };
     for (int k = 0; (k = remove_next(k, carry, liveness_ticks, keeps)) >= 0;) close_gap(said_, k, size() + 1);
   }
-  float way_m = 0.0F;  // 0: measurements are not filtered
+  float way = 0.0F;  // 0: measurements are not filtered
   [[nodiscard]] const Said& said(int k) const { return said_[static_cast<std::size_t>(k)]; }
 
  private:
@@ -79,16 +79,16 @@ TEST(Neighbors, AnEntryLivesAsLongAsTheLivenessPeriod) {
   Table table;
   Packets packets;
   packets.add(3, {1, 0});
-  table.update(packets.heard, Carry({}), liveness, none);
+  table.update(packets.heard, Carry(), liveness, none);
   ASSERT_EQ(table.size(), 1);
   EXPECT_EQ(table.age(0), 0);
   for (int age = 1; age <= liveness; ++age) {
-    table.update({}, Carry({}), liveness, none);
+    table.update({}, Carry(), liveness, none);
     ASSERT_EQ(table.size(), 1) << age;
     EXPECT_EQ(table.age(0), age);
     EXPECT_TRUE(table.alive(0));
   }
-  table.update({}, Carry({}), liveness, none);
+  table.update({}, Carry(), liveness, none);
   EXPECT_EQ(table.size(), 0);
 }
 
@@ -98,8 +98,8 @@ TEST(Neighbors, ASilentTreeNeighborIsKeptButNotAlive) {
   packets.add(3, {1, 0});
   packets.add(4, {0, 1});
   packets.add(5, {1, 1});
-  table.update(packets.heard, Carry({}), 2, none);
-  for (int k = 0; k < 50; ++k) table.update({}, Carry({}), 2, {3, 4});
+  table.update(packets.heard, Carry(), 2, none);
+  for (int k = 0; k < 50; ++k) table.update({}, Carry(), 2, {3, 4});
   EXPECT_EQ(ids(table), (std::set<RobotId>{3, 4}));
   EXPECT_FALSE(table.alive(table.find(3)));
   EXPECT_EQ(table.find(5), -1);
@@ -109,10 +109,10 @@ TEST(Neighbors, HearingAgainMakesYoung) {
   Table table;
   Packets packets;
   packets.add(3, {1, 0});
-  table.update(packets.heard, Carry({}), 5, none);
-  table.update({}, Carry({}), 5, none);
+  table.update(packets.heard, Carry(), 5, none);
+  table.update({}, Carry(), 5, none);
   packets.heard[0].position = {2, 0};
-  table.update(packets.heard, Carry({}), 5, none);
+  table.update(packets.heard, Carry(), 5, none);
   EXPECT_EQ(table.size(), 1);
   EXPECT_EQ(table.age(0), 0);
   EXPECT_FLOAT_EQ(table.range(0), 2.0F);
@@ -124,7 +124,7 @@ TEST(Neighbors, OfSeveralPacketsOfOneSenderTheLastCounts) {
   packets.add(3, {1, 0});
   packets.add(4, {0, 1});
   packets.add(3, {2, 0}, 8);
-  table.update(packets.heard, Carry({}), 5, none);
+  table.update(packets.heard, Carry(), 5, none);
   ASSERT_EQ(table.size(), 2);
   EXPECT_EQ(table.said(table.find(3)).parent, 8);
   EXPECT_FLOAT_EQ(table.range(table.find(3)), 2.0F);
@@ -134,7 +134,7 @@ TEST(Neighbors, BeyondItsCapacityItKeepsTheNearest) {
   Table table;
   Packets packets = crowd(3 * neighbor_capacity);
   std::reverse(packets.heard.begin(), packets.heard.end());
-  table.update(packets.heard, Carry({}), 5, none);
+  table.update(packets.heard, Carry(), 5, none);
   ASSERT_EQ(table.size(), neighbor_capacity);
   for (int k = 0; k < neighbor_capacity; ++k) EXPECT_GE(table.find(static_cast<RobotId>(k)), 0) << k;
 }
@@ -149,7 +149,7 @@ TEST(Neighbors, TreeNeighborsAreNeverEvicted) {
   std::vector<Table::Packet> heard = packets.heard;
   for (int turn = 0; turn < 7; ++turn) {
     Table table;
-    table.update(heard, Carry({}), 5, {300, 301});
+    table.update(heard, Carry(), 5, {300, 301});
     ASSERT_EQ(table.size(), neighbor_capacity);
     for (const RobotId id : std::array<RobotId, 4>{300, 301, 302, 303})
       EXPECT_GE(table.find(id), 0) << id << " in turn " << turn;
@@ -163,7 +163,7 @@ TEST(Neighbors, ATableFullOfTreeNeighborsTakesNobodyElse) {
   Packets packets;
   for (int k = 0; k < neighbor_capacity; ++k) packets.add(static_cast<RobotId>(k), {1.5F, 0}, me);
   packets.add(400, {0.1F, 0});
-  table.update(packets.heard, Carry({}), 5, none);
+  table.update(packets.heard, Carry(), 5, none);
   EXPECT_EQ(table.size(), neighbor_capacity);
   EXPECT_EQ(table.find(400), -1);
 }
@@ -178,12 +178,12 @@ RC_GTEST_PROP(Neighbors, TheOrderOfArrivalDoesNotMatter, ()) {
   }
   std::vector<Table::Packet> heard = packets.heard;
   Table in_order;
-  in_order.update(heard, Carry({}), 5, {3, 4});
+  in_order.update(heard, Carry(), 5, {3, 4});
   const auto shift = *rc::gen::inRange(0, count + 1);
   std::rotate(heard.begin(), heard.begin() + shift, heard.end());
   if (*rc::gen::arbitrary<bool>()) std::reverse(heard.begin(), heard.end());
   Table shuffled;
-  shuffled.update(heard, Carry({}), 5, {3, 4});
+  shuffled.update(heard, Carry(), 5, {3, 4});
   RC_ASSERT(ids(in_order) == ids(shuffled));
   for (int k = 0; k < in_order.size(); ++k) {
     const int same = shuffled.find(in_order.id(k));
@@ -210,7 +210,7 @@ RC_GTEST_PROP(Neighbors, AgreesWithAMap, ()) {
       packets.add(static_cast<RobotId>(id), at);
     }
     const std::array<RobotId, 2> keep{static_cast<RobotId>(*rc::gen::inRange(0, 30)), nobody};
-    table.update(packets.heard, Carry({}), liveness, keep);
+    table.update(packets.heard, Carry(), liveness, keep);
     for (auto& [id, entry] : expected) ++entry.age;
     for (const auto& p : packets.heard) expected[p.id] = {p.position, 0, p.said.number};
     std::erase_if(expected, [&](const auto& entry) { return entry.second.age > liveness && entry.first != keep[0]; });
@@ -259,9 +259,9 @@ TEST(Neighbors, OnlyTheSilentAreDeadReckoned) {
   Packets packets;
   packets.add(3, {1, 0});
   packets.add(4, {1, 0});
-  table.update(packets.heard, Carry({}), 5, none);
+  table.update(packets.heard, Carry(), 5, none);
   packets.heard.pop_back();
-  table.update(packets.heard, Carry({0.25F, 0, pi<float> / 2}), 5, none);
+  table.update(packets.heard, Carry({0.25F, 0}, pi<float> / 2), 5, none);
   EXPECT_EQ(table.position(table.find(3)), (Vec2{1, 0}));
   EXPECT_NEAR(table.position(table.find(4)).x, 0.0F, 1e-6F);
   EXPECT_NEAR(table.position(table.find(4)).y, -0.75F, 1e-6F);
@@ -271,11 +271,11 @@ TEST(Neighbors, OnlyTheSilentAreDeadReckoned) {
 // A table that has learnt from its first neighbours that ranges are off by half a metre.
 Table with_noise(Packets& packets) {
   Table table;
-  table.way_m = 0.02F;
+  table.way = 0.02F;
   for (RobotId id = 1; id <= 8; ++id) packets.add(id, {1.5F, 0});
   for (int tick = 0; tick < 400; ++tick) {
     for (Table::Packet& p : packets.heard) p.position.x = (tick + p.id) % 2 != 0 ? 1.0F : 2.0F;
-    table.update(packets.heard, Carry({}), 5, none);
+    table.update(packets.heard, Carry(), 5, none);
   }
   return table;
 }
@@ -283,10 +283,10 @@ Table with_noise(Packets& packets) {
 TEST(Neighbors, NoisyRangesAreFilteredAndKeepASpread) {
   Packets packets;
   const Table table = with_noise(packets);
-  ASSERT_GT(table.spread_m(), 0.1F);
+  ASSERT_GT(table.spread(), 0.1F);
   for (int k = 0; k < table.size(); ++k) {
     EXPECT_NEAR(table.position(k).x, 1.5F, 0.15F);
-    EXPECT_EQ(table.range(k), norm(table.position(k)) + table.spread_m());
+    EXPECT_EQ(table.range(k), norm(table.position(k)) + table.spread());
   }
 }
 
@@ -295,16 +295,16 @@ TEST(Neighbors, ANewNeighbourStartsFromItsMeasurement) {
   Packets packets;
   Table table = with_noise(packets);
   packets.add(20, {0, 1.0F});
-  table.update(packets.heard, Carry({}), 5, none);
+  table.update(packets.heard, Carry(), 5, none);
   EXPECT_EQ(table.position(table.find(20)), (Vec2{0, 1.0F}));
   packets.heard.back().position.y = 1.6F;
-  table.update(packets.heard, Carry({}), 5, none);
+  table.update(packets.heard, Carry(), 5, none);
   EXPECT_NEAR(table.position(table.find(20)).y, 1.3F, 1e-4F);
   packets.heard.pop_back();
-  for (int tick = 0; tick < 7; ++tick) table.update(packets.heard, Carry({}), 5, none);
+  for (int tick = 0; tick < 7; ++tick) table.update(packets.heard, Carry(), 5, none);
   ASSERT_EQ(table.find(20), -1);
   packets.add(20, {0, 0.4F});
-  table.update(packets.heard, Carry({}), 5, none);
+  table.update(packets.heard, Carry(), 5, none);
   EXPECT_EQ(table.position(table.find(20)), (Vec2{0, 0.4F}));
 }
 
@@ -313,7 +313,7 @@ TEST(Neighbors, FilteredPositionsAreCarriedByOdometry) {
   Packets packets;
   Table table = with_noise(packets);
   const Vec2 before = table.position(0);
-  const Carry carry({0.2F, 0, pi<float> / 2});
+  const Carry carry({0.2F, 0}, pi<float> / 2);
   for (Table::Packet& p : packets.heard) p.position = carry.point(table.position(table.find(p.id)));
   table.update(packets.heard, carry, 5, none);
   EXPECT_NEAR(table.position(0).x, 0.0F, 1e-5F);

@@ -24,26 +24,27 @@ bool flag() { return *rc::gen::arbitrary<bool>(); }
 RobotId sender() { return *rc::gen::inRange<RobotId>(0, nobody); }
 RobotId robot() { return flag() ? nobody : sender(); }
 std::int16_t signed_word() { return *rc::gen::arbitrary<std::int16_t>(); }
+Coordinate coordinate() { return {signed_word()}; }
 std::uint8_t byte() { return *rc::gen::arbitrary<std::uint8_t>(); }
 
 void fill(TreeMessage& m) {
-  const auto meters = [] { return static_cast<float>(*rc::gen::inRange(-1'000'000, 1'000'001)) * 0.001F; };
+  const auto length = [] { return static_cast<float>(*rc::gen::inRange(-1'000'000, 1'000'001)) * 0.001F; };
   m.id = sender();
   m.role = static_cast<Role>(*rc::gen::inRange(0, 4));
   m.phase = static_cast<Phase>(*rc::gen::inRange(0, 5));
   m.need = static_cast<Need>(*rc::gen::inRange(0, 3));
   for (bool* field : {&m.flood_done, &m.committed, &m.parent_silent}) *field = flag();
-  for (std::uint16_t* field : {&m.epoch, &m.root.sequence, &m.label_cm, &m.seqno, &m.depth, &m.want_cm})
-    *field = word();
+  for (std::uint16_t* field : {&m.epoch, &m.root.sequence, &m.label, &m.seqno, &m.depth, &m.want}) *field = word();
   for (RobotId* field :
        {&m.root.id, &m.parent, &m.old_parent, &m.flood_parent, &m.grant, &m.request, &m.inserted_child, &m.new_root})
     *field = robot();
   for (RobotCount* field : {&m.flood_robots, &m.flood_workers, &m.subtree, &m.subtree_workers, &m.count})
     *field = word();
-  for (std::int16_t* field : {&m.pull_x, &m.pull_y, &m.centroid_x_cm, &m.centroid_y_cm}) *field = signed_word();
+  for (std::int16_t* field : {&m.pull_x, &m.pull_y}) *field = signed_word();
+  for (Coordinate* field : {&m.centroid_x, &m.centroid_y}) *field = coordinate();
   m.tree_hops = byte();
   m.call_hops = byte();
-  for (float* field : {&m.q_x_m, &m.q_y_m}) *field = meters();
+  for (float* field : {&m.q_x, &m.q_y}) *field = length();
 }
 void fill(HealingMessage& m) {
   fill(static_cast<TreeMessage&>(m));
@@ -51,13 +52,13 @@ void fill(HealingMessage& m) {
   for (RobotId* field : {&m.serves, &m.told, &m.task_serves, &m.task_holder}) *field = robot();
   for (std::uint16_t* field : {&m.heartbeat, &m.task_beat}) *field = word();
   m.root_size = word();
-  for (std::int16_t* field : {&m.root_x_cm, &m.root_y_cm, &m.task_x_cm, &m.task_y_cm}) *field = signed_word();
+  for (Coordinate* field : {&m.root_x, &m.root_y, &m.task_x, &m.task_y}) *field = coordinate();
 }
 void fill(ConvoyMessage& m) {
   fill(static_cast<HealingMessage&>(m));
   m.pinned = flag();
-  m.hinge_x_cm = signed_word();
-  m.hinge_y_cm = signed_word();
+  m.hinge_x = coordinate();
+  m.hinge_y = coordinate();
   m.child_count = byte();
   for (RobotId* field : {&m.below, &m.warned, &m.above, &m.task_host}) *field = robot();
 }
@@ -143,7 +144,7 @@ TYPED_TEST(Wire, RandomBytesOfTheRightLengthAreReadOrRefused) {
     RC_ASSERT(m->role <= Role::root);
     RC_ASSERT(m->phase <= Phase::select_root);
     RC_ASSERT(m->need <= Need::await);
-    RC_ASSERT(std::fabs(m->q_x_m) <= q_limit_m && std::fabs(m->q_y_m) <= q_limit_m);
+    RC_ASSERT(std::fabs(m->q_x) <= q_limit && std::fabs(m->q_y) <= q_limit);
   });
   EXPECT_TRUE(holds);
 }
@@ -190,13 +191,13 @@ TYPED_TEST(Wire, NobodyDoesNotSpeak) { EXPECT_FALSE(over_the_wire(TypeParam{}).h
 TYPED_TEST(Wire, NumbersThatWouldPoisonASumAreRefused) {
   auto m = of_robot<TypeParam>(7);
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
-                          -std::numeric_limits<float>::infinity(), 1.001F * q_limit_m, -1.001F * q_limit_m}) {
-    m.q_x_m = bad;
+                          -std::numeric_limits<float>::infinity(), 1.001F * q_limit, -1.001F * q_limit}) {
+    m.q_x = bad;
     EXPECT_FALSE(over_the_wire(m).has_value()) << bad;
-    m.q_x_m = 0.0F, m.q_y_m = bad;
+    m.q_x = 0.0F, m.q_y = bad;
     EXPECT_FALSE(over_the_wire(m).has_value()) << bad;
   }
-  m.q_x_m = q_limit_m, m.q_y_m = -q_limit_m;
+  m.q_x = q_limit, m.q_y = -q_limit;
   EXPECT_TRUE(over_the_wire(m).has_value());
 }
 

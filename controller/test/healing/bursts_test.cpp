@@ -38,19 +38,19 @@ struct End {
     bench.put(other.bench.state.id, other.place - place) = said;
     Guard guard;
     guard_edges(robot, true, guard);
-    return moved = allowed(wish, guard, robot.params) * robot.params.tick_s;
+    return moved = allowed(wish, guard, robot.params) * robot.params.way_in_a_round();
   }
   Vec2 moved{};
 };
 
-constexpr float step_m = 0.02F;  // what a robot drives in two ticks: silences of two ticks count for nothing
+constexpr float step = 0.01F;  // what a robot drives in two ticks: silences of two ticks count for nothing
 
 // A parent and its child, each of which hears the other now and then and wants to go anywhere.
 struct Pair {
   End parent{1, {}}, child;
   std::minstd_rand random;
 
-  Pair(float start_m, unsigned seed) : child(2, {start_m, 0.0F}), random(seed) {
+  Pair(float start, unsigned seed) : child(2, {start, 0.0F}), random(seed) {
     parent.bench.put_child(2, child.place, Role::connector);
     child.bench.put_connector(1, -child.place, 100, 1);
     child.bench.state.parent = 1;
@@ -76,9 +76,9 @@ struct Pair {
 // While neither hears the other, both could go round the place where the other was, in opposite directions. What each
 // can see to is that it stays as near to that place as it was, or as an edge may be long.
 RC_GTEST_PROP(Bursts, WhoHearsNothingGoesNoFartherFromWhereItHeardTheOther, ()) {
-  Pair pair(0.01F * static_cast<float>(*rc::gen::inRange(20, 189)), *rc::gen::inRange(1U, 1000000U));
+  Pair pair(0.005F * static_cast<float>(*rc::gen::inRange(20, 189)), *rc::gen::inRange(1U, 1000000U));
   std::array<Vec2, 2> there{pair.child.place, pair.parent.place};
-  std::array<float, 2> longest_m{};
+  std::array<float, 2> longest{};
   for (int now = 0; now < 300; ++now) {
     const std::array<Vec2, 2> before{pair.child.place, pair.parent.place};
     const std::array<const End*, 2> ends{&pair.parent, &pair.child};
@@ -86,9 +86,9 @@ RC_GTEST_PROP(Bursts, WhoHearsNothingGoesNoFartherFromWhereItHeardTheOther, ()) 
     for (std::size_t e = 0; e < 2; ++e) {
       if (ends[e]->hears) {
         there[e] = before[e];
-        longest_m[e] = std::max(distance(ends[e]->place, there[e]), ends[e]->bench.params.ideal_distance_m);
+        longest[e] = std::max(distance(ends[e]->place, there[e]), ends[e]->bench.params.ideal_distance);
       } else {
-        RC_ASSERT(distance(ends[e]->place, there[e]) <= longest_m[e] + step_m);
+        RC_ASSERT(distance(ends[e]->place, there[e]) <= longest[e] + step);
       }
     }
   }
@@ -113,34 +113,34 @@ int noted_after(int ticks, Vec2 at, bool line_of_sight, int neighbors_at_start =
 }
 
 TEST(Bursts, ASilenceBeyondWhatChanceExplainsIsOne) {
-  EXPECT_EQ(noted_after(8, {1.0F, 0.0F}, false), 0) << "less than 2 I";
-  EXPECT_NEAR(noted_after(30, {1.0F, 0.0F}, false), 30, 2);
-  EXPECT_EQ(noted_after(30, {1.95F, 0.0F}, false), 0) << "it may have been out of range";
-  EXPECT_EQ(noted_after(30, {1.0F, 0.0F}, true), 0) << "something may have hidden it";
-  EXPECT_EQ(noted_after(120, {1.0F, 0.0F}, false), 0) << "too long ago to be watched";
+  EXPECT_EQ(noted_after(8, {0.5F, 0.0F}, false), 0) << "less than 2 I";
+  EXPECT_NEAR(noted_after(30, {0.5F, 0.0F}, false), 30, 2);
+  EXPECT_EQ(noted_after(30, {0.975F, 0.0F}, false), 0) << "it may have been out of range";
+  EXPECT_EQ(noted_after(30, {0.5F, 0.0F}, true), 0) << "something may have hidden it";
+  EXPECT_EQ(noted_after(120, {0.5F, 0.0F}, false), 0) << "too long ago to be watched";
 }
 
 // A thin start has few bodies, and what hides a robot seldom hides it for long.
 TEST(Bursts, WithLineOfSightTheFirstIsNotedInAThinStartOrAfterLongSilences) {
-  EXPECT_NEAR(noted_after(30, {1.0F, 0.0F}, true, 2), 30, 2);
-  EXPECT_EQ(noted_after(8, {1.0F, 0.0F}, true, 2), 0) << "less than 2 I";
-  EXPECT_EQ(noted_after(30, {1.0F, 0.0F}, true, 0, 40), 0);
-  EXPECT_NEAR(noted_after(30, {1.0F, 0.0F}, true, 0, 80), 30, 2) << "long silences are usual";
-  EXPECT_EQ(noted_after(30, {1.0F, 0.0F}, true, 0, 80, true), 0) << "but with so many targets bodies make them";
-  EXPECT_NEAR(noted_after(30, {1.0F, 0.0F}, true, 2, 0, true), 30, 2);
+  EXPECT_NEAR(noted_after(30, {0.5F, 0.0F}, true, 2), 30, 2);
+  EXPECT_EQ(noted_after(8, {0.5F, 0.0F}, true, 2), 0) << "less than 2 I";
+  EXPECT_EQ(noted_after(30, {0.5F, 0.0F}, true, 0, 40), 0);
+  EXPECT_NEAR(noted_after(30, {0.5F, 0.0F}, true, 0, 80), 30, 2) << "long silences are usual";
+  EXPECT_EQ(noted_after(30, {0.5F, 0.0F}, true, 0, 80, true), 0) << "but with so many targets bodies make them";
+  EXPECT_NEAR(noted_after(30, {0.5F, 0.0F}, true, 2, 0, true), 30, 2);
 }
 
 TEST(Bursts, WithLineOfSightOneThatOthersKnowOfMakesARobotWatch) {
   ConvoyBench bench = grown<Convoy>();
   bench.params.line_of_sight = true;
-  bench.put(20, {1.0F, 0.0F});
-  bench.put(21, {-1.0F, 0.0F}).centroid_x_cm = 20;
+  bench.put(20, {0.5F, 0.0F});
+  set_burst(bench.put(21, {-0.5F, 0.0F}), 20);
   bench.steps(5);
   EXPECT_NEAR(bench.state.burst_ticks, 20, 1) << "told by another";
   const auto said = bench.say(20);
   bench.silence(20);
   bench.steps(60);
-  bench.put(20, {1.0F, 0.0F}) = said;
+  bench.put(20, {0.5F, 0.0F}) = said;
   bench.step();
   EXPECT_NEAR(bench.state.burst_ticks, 60, 2);
 }
@@ -154,7 +154,7 @@ TEST(Bursts, LostPacketsAloneMakeNone) {
     for (int tick = 0; tick < 3000; ++tick) {
       for (RobotId id = 20; id < 26; ++id) {
         bench.silence(id);
-        if (random() % 100 >= lost_percent) bench.put(id, {0.05F * static_cast<float>(id), 0.5F});
+        if (random() % 100 >= lost_percent) bench.put(id, {0.025F * static_cast<float>(id), 0.25F});
       }
       bench.step();
       ASSERT_EQ(bench.state.burst_ticks, 0) << lost_percent << " % lost, tick " << tick;
@@ -165,14 +165,14 @@ TEST(Bursts, LostPacketsAloneMakeNone) {
 TEST(Bursts, ThatAreKnownMakePatientAndArePassedOn) {
   ConvoyBench bench = grown<Convoy>();
   bench.params.line_of_sight = false;
-  bench.put_child(20, {1.0F, 0.0F}, Role::connector);
-  bench.put_connector(21, {0.0F, 1.0F}, 100, 1).centroid_x_cm = 40;
+  bench.put_child(20, {0.5F, 0.0F}, Role::connector);
+  set_burst(bench.put_connector(21, {0.0F, 0.5F}, 100, 1), 40);
   bench.state.role = Role::connector;
   bench.state.parent = 21;
   bench.steps(3);
-  EXPECT_EQ(bench.step().message.centroid_x_cm, 40);
+  EXPECT_EQ(burst_of(bench.step().message), 40);
   bench.silence(20);
-  bench.put_connector(22, {0.5F, 1.0F}, 100, 1);
+  bench.put_connector(22, {0.25F, 0.5F}, 100, 1);
   bench.steps(3);
   bench.silence(22);
   bench.steps(60);
@@ -183,10 +183,10 @@ TEST(Bursts, ThatAreKnownMakePatientAndArePassedOn) {
 
 // Far away, the signal may have faded; near by, whoever is silent will be heard again.
 TEST(Bursts, WhoHearsNothingOfAFarNeighbourComesNearer) {
-  for (const float range_m : {1.85F, 1.5F}) {
+  for (const float range : {0.925F, 0.75F}) {
     ConvoyBench bench = grown<Convoy>();
     bench.params.line_of_sight = false;
-    bench.put_child(20, {range_m, 0.0F}, Role::connector);
+    bench.put_child(20, {range, 0.0F}, Role::connector);
     bench.state.role = Role::connector;
     bench.steps(3);
     bench.state.burst_ticks = 40;
@@ -195,7 +195,7 @@ TEST(Bursts, WhoHearsNothingOfAFarNeighbourComesNearer) {
     const auto robot = bench.tick();
     Guard guard;
     guard_edges(robot, false, guard);
-    EXPECT_EQ(guard.apply({}).x > 0.0F, range_m > 1.8F) << range_m;
+    EXPECT_EQ(guard.apply({}).x > 0.0F, range > 0.9F) << range;
   }
 }
 
@@ -203,7 +203,7 @@ TEST(Bursts, WhoHearsNothingOfAFarNeighbourComesNearer) {
 TEST(Bursts, OnlyWhoHasHeardMeOfLateIsSure) {
   ConvoyBench bench = grown<Convoy>();
   bench.params.line_of_sight = false;
-  bench.put(20, {1.0F, 0.0F});
+  bench.put(20, {0.5F, 0.0F});
   bench.steps(3);
   const auto sure = [&](int deaf_ticks, int burst_ticks) {
     bench.state.burst_ticks = static_cast<std::uint8_t>(burst_ticks);

@@ -11,15 +11,15 @@ namespace {
 
 // A connector between the root and the only robot that hangs on it.
 struct Branch : Watch {
-  Branch() : Watch({-1.5F, 0.0F}) {
+  Branch() : Watch({-0.75F, 0.0F}) {
     auto& state = bench.state;
     state.role = Role::connector;
     state.parent = root_id;
-    state.label_cm = 150;
-    auto& below = bench.put(3, {1.6F, 0.0F});
+    state.label = 150;
+    auto& below = bench.put(3, {0.8F, 0.0F});
     below.role = Role::connector;
     below.parent = state.id;
-    below.label_cm = 300;
+    below.label = 300;
     below.committed = true;
     hear_root(3);
   }
@@ -30,12 +30,12 @@ TEST(DanglingBranch, WhoLosesTheOnlyRobotBelowGoesWhereItWas) {
   ConvoyBench& bench = branch.bench;
   bench.state.turn = 200;  // no end of a thin start
   bench.silence(3);
-  branch.hear_root(2 * bench.params.ticks(bench.params.liveness_period_s));
+  branch.hear_root(2 * whole(bench.params.liveness_rounds));
   EXPECT_EQ(bench.state.role, Role::connector);
   EXPECT_EQ(bench.state.parent, root_id);
-  EXPECT_NEAR(bench.state.want_m, 1.6F, 0.05F) << "its chain comes along";
-  EXPECT_GT(bench.step().velocity.forward_m_s, 0.0F);
-  branch.hear_root(bench.params.ticks(20.0F));
+  EXPECT_NEAR(bench.state.want, 0.8F, 0.025F) << "its chain comes along";
+  EXPECT_GT(bench.step().motion.forward, 0.0F);
+  branch.hear_root(bench.params.rounds(2.0F));
   EXPECT_EQ(bench.state.role, Role::spare) << "nobody came";
 }
 
@@ -47,7 +47,7 @@ TEST(DanglingBranch, NotForOneThatLeftOrWhileAnotherHangsOnIt) {
   left.hear_root(30);
   EXPECT_EQ(left.bench.state.role, Role::spare);
   Branch other;
-  auto& m = other.bench.put(4, {0.0F, 1.0F});
+  auto& m = other.bench.put(4, {0.0F, 0.5F});
   m = other.bench.say(3);
   m.id = 4;
   other.hear_root(2);
@@ -68,7 +68,7 @@ TEST(DanglingBranch, WithManyTargetsTheUpperEndWaitsWhereItsChildDied) {
     Branch branch;
     ConvoyBench& bench = branch.bench;
     bench.state.turn = 200;
-    bench.move(3, {0.2F, 0.0F});
+    bench.move(3, {0.1F, 0.0F});
     branch.hear_root(1);
     if (many) see_many_targets(bench);
     bench.silence(3);
@@ -77,8 +77,8 @@ TEST(DanglingBranch, WithManyTargetsTheUpperEndWaitsWhereItsChildDied) {
     return ticks;
   };
   const ConvoyParams p = convoy_defaults();
-  EXPECT_LT(ticks_as_connector(false), p.ticks(4.0F));
-  EXPECT_GT(ticks_as_connector(true), p.ticks(p.pursue_for_s));
+  EXPECT_LT(ticks_as_connector(false), p.rounds(0.4F));
+  EXPECT_GT(ticks_as_connector(true), p.rounds(p.pursue_for_drives));
 }
 
 // A junction goes there, too, if robots hang on the one that is lost.
@@ -87,7 +87,7 @@ TEST(DanglingBranch, WithManyTargetsAJunctionSeeksALostBranch) {
     Branch branch;
     ConvoyBench& bench = branch.bench;
     bench.state.turn = 200;
-    auto& m = bench.put(4, {0.0F, 1.0F});
+    auto& m = bench.put(4, {0.0F, 0.5F});
     m = bench.say(3);
     m.id = 4;
     bench.say(3).subtree = subtree;
@@ -96,7 +96,7 @@ TEST(DanglingBranch, WithManyTargetsAJunctionSeeksALostBranch) {
     bench.state.root_size = bench.say(root_id).root_size = root_size;
     bench.silence(3);
     branch.hear_root(20);
-    return bench.state.dangling_ticks > 0 && bench.step().velocity.forward_m_s > 0.05F;
+    return bench.state.dangling_ticks > 0 && bench.step().motion.forward > 0.25F;
   };
   EXPECT_TRUE(seeks(300, 2));
   EXPECT_FALSE(seeks(300, 1));

@@ -15,7 +15,7 @@ namespace {
 TEST(Election, ARootThatHearsOfALaterEpochOpensItsOwn) {
   ConvoyBench bench = grown<Convoy>();
   bench.state.root = {3, bench.state.id};
-  auto& m = bench.put(20, {1.0F, 0.0F});
+  auto& m = bench.put(20, {0.5F, 0.0F});
   m.root = {2, 77};
   m.epoch = 6;
   m.phase = Phase::grow_tree;
@@ -28,14 +28,14 @@ TEST(Election, TheLesserOfTwoRootsSteps) {
   ConvoyBench bench = grown<Convoy>();
   bench.state.root = {3, bench.state.id};
   bench.state.role = Role::root;
-  bench.put(20, {1.0F, 0.0F}).root = {3, 77};
+  bench.put(20, {0.5F, 0.0F}).root = {3, 77};
   bench.step();
   EXPECT_NE(bench.state.role, Role::root);
   EXPECT_EQ(bench.state.root, (RootToken{3, 77}));
 }
 
 TEST(RootSelection, TheLargerFragmentKeepsItsRoot) {
-  Bench bench = handing_over();
+  ConvoyBench bench = handing_over();
   bench.state.phase = Phase::grow_tree;
   bench.state.root_size = 20;
   bench.say(5).root = {7, 30};
@@ -50,7 +50,7 @@ TEST(RootSelection, TheLargerFragmentKeepsItsRoot) {
 }
 
 TEST(RootSelection, NobodyContestsItsOwnHandOver) {
-  Bench bench = handing_over();
+  ConvoyBench bench = handing_over();
   bench.state.root_size = 20;
   EXPECT_EQ(bench.step().message.root_size, 20);
   bench.say(5).root = {2, 5};
@@ -58,9 +58,9 @@ TEST(RootSelection, NobodyContestsItsOwnHandOver) {
   bench.step();
   EXPECT_EQ(bench.state.root, (RootToken{2, 5}));
   // The heir, whose acceptance was never heard, inherits the size and so yields to the old root.
-  Bench heir = grown();
+  ConvoyBench heir = grown();
   heir.state.phase = Phase::select_root;
-  auto& m = heir.put(9, {-1.0F, 0});
+  auto& m = heir.put(9, {-0.5F, 0});
   m.root = {4, 9};
   m.root_size = 20;
   m.new_root = 1;
@@ -91,9 +91,9 @@ struct Network {
       for (std::size_t k = 0; k < states.size(); ++k) {
         std::vector<Heard> heard;
         for (std::size_t j = 0; j < states.size(); ++j)
-          if (j != k && said[j].id != nobody && distance(places[j], places[k]) < params.communication_range_m)
+          if (j != k && said[j].id != nobody && distance(places[j], places[k]) < 1.0F)
             heard.push_back({&said[j], places[j] - places[k]});
-        next[k] = convoy_step(params, states[k], {heard, {}, params}).message;
+        next[k] = convoy_step(params, states[k], {heard, {}, test_platform}).message;
       }
       said = next;
     }
@@ -120,13 +120,13 @@ RC_GTEST_PROP(Fragments, OfTwoRootsThatMeetTheOneOfTheLargerFragmentStays, ()) {
     const RootToken token{sequence(), root};
     if (counts[side] == right) larger = root;
     for (int k = 0; k < counts[side]; ++k) {
-      const float away = 1.5F + 0.8F * static_cast<float>(k);
-      network.add(id++, {side == 0 ? -away : away, 0.1F * static_cast<float>(k % 3)}, token);
+      const float away = 0.75F + 0.4F * static_cast<float>(k);
+      network.add(id++, {side == 0 ? -away : away, 0.05F * static_cast<float>(k % 3)}, token);
     }
   }
   network.steps(120);
   RC_ASSERT(network.roots().size() == 2U);
-  for (Vec2& place : network.places) place.x += place.x < 0.0F ? 1.0F : -1.0F;
+  for (Vec2& place : network.places) place.x += place.x < 0.0F ? 0.5F : -0.5F;
   network.steps(50);
   for (int k = 0; k < 100; ++k) {
     network.steps(1);

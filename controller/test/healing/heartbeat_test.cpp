@@ -35,11 +35,11 @@ TEST(Heartbeat, IsBelievedAgainAfterMoreThanHalfTheRangeOfSilence) {
   for (const int silence : {serial_half_range - 10, serial_half_range + 10}) {
     Watch watch;
     watch.hear_root(5);
-    watch.bench.params.claim_radius_m = 0.02F;  // or it would take the root's place
+    watch.bench.params.claim_radius = 0.01F;  // or it would take the root's place
     watch.bench.silence(root_id);
     watch.bench.steps(silence);
     watch.count = static_cast<std::uint16_t>(watch.count + 40000);
-    watch.bench.put(root_id, {0.5F, 0.0F}).root = {1, root_id};
+    watch.bench.put(root_id, {0.25F, 0.0F}).root = {1, root_id};
     watch.hear_root(1);
     EXPECT_EQ(watch.bench.state.silence_ticks == 0, silence > serial_half_range);
   }
@@ -51,14 +51,14 @@ TEST(Heartbeat, TheRootItselfBeats) {
   const std::uint16_t before = bench.step().message.heartbeat;
   EXPECT_EQ(bench.step().message.heartbeat, before + 1);
   EXPECT_EQ(bench.state.silence_ticks, 1) << "nobody hears it";
-  bench.put(5, {1.0F, 0.0F});
+  bench.put(5, {0.5F, 0.0F});
   EXPECT_EQ(bench.step().message.heartbeat, before + 2);
   EXPECT_EQ(bench.state.silence_ticks, 0);
 }
 
-int claim_ticks(const ConvoyBench& bench, float away_m) {
+int claim_ticks(const ConvoyBench& bench, float away) {
   const auto& p = bench.params;
-  return 2 * p.ticks(p.liveness_period_s) + p.ticks(p.claim_after_s + p.claim_spread_s_m * away_m);
+  return 2 * whole(p.liveness_rounds) + whole(p.claim_after_rounds + p.claim_spread_rounds * away);
 }
 
 TEST(Election, WhoIsNearClaimsAfterItsTurnAndOpensAnEpoch) {
@@ -66,7 +66,7 @@ TEST(Election, WhoIsNearClaimsAfterItsTurnAndOpensAnEpoch) {
   watch.hear_root(200);
   watch.bench.silence(root_id);
   auto& state = watch.bench.state;
-  watch.bench.steps(claim_ticks(watch.bench, 0.5F));
+  watch.bench.steps(claim_ticks(watch.bench, 0.25F));
   EXPECT_EQ(state.tally.elections, 0U);
   watch.bench.step();
   EXPECT_EQ(state.tally.elections, 1U);
@@ -79,16 +79,16 @@ TEST(Election, WhoIsNearClaimsAfterItsTurnAndOpensAnEpoch) {
 // Two that may claim hear each other: so two fragments never keep a root each at one place.
 TEST(Election, TheCircleOfClaimantsIsSmallerThanTheRange) {
   const ConvoyParams p = convoy_defaults();
-  EXPECT_LT(2.0F * p.claim_radius_m, p.communication_range_m);
+  EXPECT_LT(2.0F * p.claim_radius, 1.0F);
 }
 
 TEST(Election, NeitherTheFarNorWorkersNorWhoDoesNotHealClaim) {
   for (const int who : {0, 1, 2}) {
-    Watch watch(who == 0 ? Vec2{1.5F, 0.0F} : Vec2{0.3F, 0.0F});
+    Watch watch(who == 0 ? Vec2{0.75F, 0.0F} : Vec2{0.15F, 0.0F});
     if (who == 2) watch.bench.params.healing = 0.0F;
     watch.hear_root(3);
-    if (who == 1) watch.bench.send({1.0F, 0.0F});
-    if (who == 0) watch.bench.state.root_at = {1.5F, 0.0F};
+    if (who == 1) watch.bench.send({0.5F, 0.0F});
+    if (who == 0) watch.bench.state.root_at = {0.75F, 0.0F};
     watch.bench.silence(root_id);
     watch.bench.steps(30);
     EXPECT_EQ(watch.bench.state.tally.elections, 0U) << who;
@@ -99,7 +99,7 @@ TEST(Election, NeitherTheFarNorWorkersNorWhoDoesNotHealClaim) {
 void put_crowd(ConvoyBench& bench) {
   for (int n = 0; n < 4; ++n) {
     const RobotId id = static_cast<RobotId>(11 + n);
-    bench.put(id, {0.4F, 0.2F * static_cast<float>(n)}).role = Role::spare;
+    bench.put(id, {0.2F, 0.1F * static_cast<float>(n)}).role = Role::spare;
     bench.say(id).root = bench.state.root;
   }
 }
@@ -112,7 +112,7 @@ TEST(Election, OfThoseWhoNeverHeardOfARootTheFirstClaims) {
       ConvoyBench bench;
       bench.state = initial_convoy_state(1, false, false);
       put_crowd(bench);
-      bench.put(other, {1.0F, 0.0F}).role = worker ? Role::worker : Role::spare;
+      bench.put(other, {0.5F, 0.0F}).role = worker ? Role::worker : Role::spare;
       bench.say(other).root = bench.state.root;
       bench.steps(200);
       EXPECT_EQ(bench.state.tally.elections, 0U);
@@ -127,7 +127,7 @@ TEST(Election, AmongFewNeighborsTheFirstRootIsAwaitedThreeTimesAsLong) {
   const auto ticks_until_elected = [](bool crowd, std::uint8_t at_start) {
     ConvoyBench bench;
     bench.state = initial_convoy_state(1, false, false);
-    bench.put(5, {0.5F, 0.0F}).role = Role::spare;
+    bench.put(5, {0.25F, 0.0F}).role = Role::spare;
     bench.say(5).root = bench.state.root;
     if (crowd) put_crowd(bench);
     int ticks = 0;

@@ -19,13 +19,13 @@ struct Follower {
   ConvoyBench bench = grown<Convoy>();
   Follower() {
     bench.state.role = Role::spare;
-    bench.state.label_cm = 300;
+    bench.state.label = 300;
     bench.state.seqno = 10;
-    bench.put_connector(2, {1.2F, 0.0F}, 100, 11);
-    auto& spare = bench.put(3, {0.4F, 0.0F});
+    bench.put_connector(2, {0.6F, 0.0F}, 100, 11);
+    auto& spare = bench.put(3, {0.2F, 0.0F});
     spare.grant = 2;
     spare.tree_hops = 1;
-    spare.label_cm = 200;
+    spare.label = 200;
     spare.seqno = 11;
   }
   RobotId hold() {
@@ -33,14 +33,14 @@ struct Follower {
     find_hold(robot);
     return bench.state.hold;
   }
-  // Fastest motion that the links allow in a direction, m/s.
+  // Fastest motion that the links allow in a direction, v_max.
   float allowed(Vec2 direction, bool lets_go = false) {
     auto robot = bench.tick();
     estimate_loss(robot);
     find_hold(robot);
     Guard guard;
     guard_links(robot, lets_go, guard);
-    return dot(guard.apply(direction * robot.params.speed_gain_m_s), direction);
+    return dot(guard.apply(direction * robot.params.speed_gain), direction);
   }
 };
 
@@ -48,11 +48,11 @@ TEST(Hold, IsOfTheTreeAndItSaysSo) {
   Follower f;
   EXPECT_EQ(f.hold(), 2) << "farther than the spare, but of the tree";
   EXPECT_EQ(f.bench.step().message.grant, 2);
-  f.bench.move(2, {1.8F, 0.0F});
+  f.bench.move(2, {0.9F, 0.0F});
   EXPECT_EQ(f.hold(), 3) << "a spare rather than a link that is strained";
   f.bench.silence(3);
   EXPECT_EQ(f.hold(), 3) << "still alive";
-  f.bench.steps(2 * f.bench.params.ticks(f.bench.params.liveness_period_s));
+  f.bench.steps(2 * whole(f.bench.params.liveness_rounds));
   EXPECT_EQ(f.bench.state.hold, 2) << "the strained link is better than none";
 }
 
@@ -76,7 +76,7 @@ TEST(Hold, IsKeptWhileNoOtherIsClearlyBetter) {
   for (const RobotId held : {RobotId{3}, RobotId{4}}) {
     Follower f;
     f.bench.silence(2);
-    f.bench.put(4, {0.3F, 0.0F}) = f.bench.say(3);
+    f.bench.put(4, {0.15F, 0.0F}) = f.bench.say(3);
     f.bench.say(4).id = 4;
     f.bench.state.hold = held;
     EXPECT_EQ(f.hold(), held) << "both are spares of the same hops";
@@ -99,7 +99,7 @@ TEST(Hold, IsTheBestOfAllInWhateverOrderTheyAreHeard) {
   for (int world = 0; world < 300; ++world) {
     ConvoyBench bench = grown<Convoy>();
     bench.state.role = Role::spare;
-    bench.state.label_cm = 300;
+    bench.state.label = 300;
     bench.state.seqno = 10;
     const int robots = 2 + below(30);
     bench.state.hold = static_cast<RobotId>(2 + below(2 * robots));
@@ -107,19 +107,19 @@ TEST(Hold, IsTheBestOfAllInWhateverOrderTheyAreHeard) {
     double least = 1e9;
     for (int k = 0; k < robots; ++k) {
       const auto id = static_cast<RobotId>(2 + k);
-      const float range_m = 0.05F + 0.00195F * static_cast<float>(below(1000));
-      auto& m = bench.put(id, {range_m, 0.0F});
+      const float range = 0.025F + 0.000975F * static_cast<float>(below(1000));
+      auto& m = bench.put(id, {range, 0.0F});
       const bool ahead = below(3) > 0;
       m.role = below(4) == 0 ? Role::connector : Role::spare;
       m.parent = m.role == Role::connector ? RobotId{999} : nobody;
       m.grant = 999;
       m.depth = static_cast<std::uint16_t>(m.role == Role::connector ? below(2) : 0);
       m.tree_hops = static_cast<std::uint8_t>(below(5) == 0 ? unreachable : below(9));
-      m.label_cm = 200;
+      m.label = 200;
       m.seqno = ahead ? 11 : 9;
       if (!ahead) continue;
       const int hops = m.role == Role::spare ? m.tree_hops : m.depth == 0 ? unreachable : -1;
-      const double cost = hold_cost(static_cast<double>(range_m) / 2.0, hops, hops >= 0 && id != bench.state.hold);
+      const double cost = hold_cost(static_cast<double>(range), hops, hops >= 0 && id != bench.state.hold);
       if (cost >= least) continue;
       best = id;
       least = cost;
@@ -132,7 +132,7 @@ TEST(Hold, IsTheBestOfAllInWhateverOrderTheyAreHeard) {
 
 TEST(Hold, IsNotOfALostBranchAsLongAsThereIsAnother) {
   Follower f;
-  f.bench.move(2, {1.8F, 0.0F});
+  f.bench.move(2, {0.9F, 0.0F});
   f.bench.say(3).tree_hops = unreachable;
   EXPECT_EQ(f.hold(), 2) << "rather the strained link";
   f.bench.say(2).depth = invalid_depth;
@@ -146,7 +146,7 @@ TEST(Hold, OfTheLastEpochStaysWhileOthersHangOnMeByIt) {
       Follower f;
       f.bench.state.phase = phase;
       f.bench.state.hold = 3;
-      if (child) f.bench.put(4, {0.0F, 1.0F}).old_parent = 1;
+      if (child) f.bench.put(4, {0.0F, 0.5F}).old_parent = 1;
       EXPECT_EQ(f.hold(), child && phase < Phase::grow_tree ? 3 : 2);
     }
   }
@@ -159,7 +159,7 @@ TEST(Hold, IsAheadInTheOrder) {
   EXPECT_EQ(f.hold(), nobody) << "both may hang on me";
   f.bench.say(3).seqno = 10;
   EXPECT_EQ(f.hold(), 3) << "as fresh, and nearer to the root";
-  f.bench.say(3).label_cm = 400;
+  f.bench.say(3).label = 400;
   EXPECT_EQ(f.hold(), nobody);
 }
 
@@ -188,7 +188,7 @@ TEST(Hold, KeepsUpOnlyWithTheOneItWouldLikeBest) {
 TEST(Hold, WaitsForNobodyWhoIsFartherFromTheTree) {
   for (const int my_hops : {1, 2}) {
     Follower f;
-    f.bench.move(2, {1.8F, 0.0F});
+    f.bench.move(2, {0.9F, 0.0F});
     f.bench.say(2).seqno = 12;
     f.bench.say(3).seqno = 8;
     f.bench.state.tree_hops = static_cast<std::uint8_t>(my_hops);
@@ -201,24 +201,24 @@ TEST(Hold, OfTheLastEpochWillDoUntilTheFloodComesBy) {
   Follower f;
   EXPECT_EQ(f.hold(), 2);
   f.bench.state.epoch = 2;
-  f.bench.state.label_cm = unknown_label;
+  f.bench.state.label = unknown_label;
   EXPECT_EQ(f.hold(), 2);
-  f.bench.state.label_cm = 300;
+  f.bench.state.label = 300;
   EXPECT_EQ(f.hold(), nobody) << "2 has not been labelled yet";
 }
 
 TEST(Hold, IsNotLeftBehindAndDoesNotLeave) {
   Follower f;
   f.bench.silence(3);
-  f.bench.move(2, {1.88F, 0.0F});
+  f.bench.move(2, {0.94F, 0.0F});
   f.bench.steps(20);
   EXPECT_EQ(f.bench.state.hold, 2);
-  EXPECT_NEAR(f.allowed({-1.0F, 0.0F}), 0.02F, 1e-4F) << "(0.95 C - d) / 2 times the guard's rate of 2";
-  EXPECT_NEAR(f.allowed({1.0F, 0.0F}), 0.2F, 1e-4F);
+  EXPECT_NEAR(f.allowed({-1.0F, 0.0F}), 0.1F, 5e-4F) << "(0.95 C - d) / 2 times the guard's rate of 20";
+  EXPECT_NEAR(f.allowed({1.0F, 0.0F}), 1.0F, 5e-4F);
   f.bench.silence(2);
-  auto& other = f.bench.put(5, {1.88F, 0.0F});
+  auto& other = f.bench.put(5, {0.94F, 0.0F});
   other.grant = f.bench.state.id;
-  EXPECT_NEAR(f.allowed({-1.0F, 0.0F}, true), 0.02F, 1e-4F) << "who has me as its hold is not left, even on a retreat";
+  EXPECT_NEAR(f.allowed({-1.0F, 0.0F}, true), 0.1F, 5e-4F) << "who has me as its hold is not left, even on a retreat";
 }
 
 // It may only not be heard, and have driven away since.
@@ -226,7 +226,7 @@ TEST(Hold, WhoFallsSilentIsNotLeftAtOnceWherePacketsGetLost) {
   const auto allowed_after = [](int ticks, std::uint8_t usual_silence, Vec2 way = {0.0F, 1.0F}) {
     Follower f;
     f.bench.state.turn = 200;  // no thin start
-    f.bench.put(5, way * 1.7F).grant = f.bench.state.id;
+    f.bench.put(5, way * 0.85F).grant = f.bench.state.id;
     f.bench.steps(3);
     f.bench.silence(5);
     for (int k = 0; k < ticks; ++k) {
@@ -236,13 +236,13 @@ TEST(Hold, WhoFallsSilentIsNotLeftAtOnceWherePacketsGetLost) {
     f.bench.state.usual_silence = usual_silence;
     return f.allowed(-way);
   };
-  EXPECT_NEAR(allowed_after(1, 32), 0.2F, 1e-4F) << "0.2 m are left: full speed";
-  EXPECT_NEAR(allowed_after(4, 32), 0.2F, 1e-4F) << "I allows for that";
-  EXPECT_NEAR(allowed_after(6, 32), 0.1F, 1e-4F) << "it may be 0.1 m farther";
-  EXPECT_LE(allowed_after(40, 32), 0.0F) << "0.6 m farther";
-  EXPECT_NEAR(allowed_after(70, 32), 0.2F, 1e-4F) << "after twice the usual silence it is gone";
-  EXPECT_NEAR(allowed_after(7, 0), 0.2F, 1e-4F) << "where nothing gets lost, after I";
-  EXPECT_NEAR(allowed_after(40, 32, {1.0F, 0.0F}), 0.2F, 1e-4F) << "robots 2 and 3 may hide it";
+  EXPECT_NEAR(allowed_after(1, 32), 1.0F, 5e-4F) << "0.1 C is left: full speed";
+  EXPECT_NEAR(allowed_after(4, 32), 1.0F, 5e-4F) << "I allows for that";
+  EXPECT_NEAR(allowed_after(6, 32), 0.5F, 5e-4F) << "it may be 0.05 C farther";
+  EXPECT_LE(allowed_after(40, 32), 0.0F) << "0.3 C farther";
+  EXPECT_NEAR(allowed_after(70, 32), 1.0F, 5e-4F) << "after twice the usual silence it is gone";
+  EXPECT_NEAR(allowed_after(7, 0), 1.0F, 5e-4F) << "where nothing gets lost, after I";
+  EXPECT_NEAR(allowed_after(40, 32, {1.0F, 0.0F}), 1.0F, 5e-4F) << "robots 2 and 3 may hide it";
 }
 
 // A worker that waits for the first tree is drawn back the more, the farther its hold is: a hand's breadth does not
@@ -253,44 +253,49 @@ TEST(Hold, DrawsAWorkerBackLittleByLittle) {
   f.bench.silence(3);
   f.bench.params.drive = Drive::holonomic;
   f.bench.state.phase = f.bench.say(2).phase = Phase::start_tree;
-  f.bench.send({0.0F, 5.0F});
-  const auto heads_for = [&](float hold_m) {
-    f.bench.move(2, {hold_m, 0.0F});
-    const Velocity v = f.bench.step().velocity;
+  f.bench.send({0.0F, 2.5F});
+  const auto heads_for = [&](float away) {
+    f.bench.move(2, {away, 0.0F});
+    const Motion v = f.bench.step().motion;
     EXPECT_EQ(f.bench.state.hold, 2);
-    return unit(Vec2{v.forward_m_s, v.sideways_m_s});
+    return unit(Vec2{v.forward, v.sideways});
   };
-  EXPECT_GT(heads_for(1.2F).y, 0.99F) << "near it goes to its target";
-  EXPECT_GT(heads_for(1.85F).x, 0.99F) << "far it goes back";
-  const float recruitment_m = f.bench.params.recruitment_distance_m;
-  EXPECT_GT(dot(heads_for(recruitment_m - 0.01F), heads_for(recruitment_m + 0.01F)), 0.9F);
+  EXPECT_GT(heads_for(0.6F).y, 0.99F) << "near it goes to its target";
+  EXPECT_GT(heads_for(0.925F).x, 0.99F) << "far it goes back";
+  const float recruitment = f.bench.params.recruitment_distance;
+  EXPECT_GT(dot(heads_for(recruitment - 0.005F), heads_for(recruitment + 0.005F)), 0.9F);
 }
 
 TEST(Hold, NobodyLeavesWhoHasNone) {
   Follower f;
   f.bench.silence(2);
-  f.bench.move(3, {1.88F, 0.0F});
+  f.bench.move(3, {0.94F, 0.0F});
   f.bench.say(3).grant = nobody;
-  EXPECT_NEAR(f.allowed({-1.0F, 0.0F}), 0.02F, 1e-4F);
-  f.bench.put(2, {0.5F, 0.0F}).parent = 9;
+  EXPECT_NEAR(f.allowed({-1.0F, 0.0F}), 0.1F, 5e-4F);
+  f.bench.put(2, {0.25F, 0.0F}).parent = 9;
   f.bench.state.role = Role::worker;
   f.bench.state.parent = 2;
-  EXPECT_NEAR(f.allowed({-1.0F, 0.0F}), 0.02F, 1e-4F) << "nor a robot of the tree";
+  EXPECT_NEAR(f.allowed({-1.0F, 0.0F}), 0.1F, 5e-4F) << "nor a robot of the tree";
   f.bench.say(3).grant = 77;
-  EXPECT_NEAR(f.allowed({-1.0F, 0.0F}), 0.2F, 1e-4F) << "it is somebody else's";
+  EXPECT_NEAR(f.allowed({-1.0F, 0.0F}), 1.0F, 5e-4F) << "it is somebody else's";
 }
 
 // In the first tick nobody is heard: a worker may turn, but not go.
 TEST(Hold, BeforeAnybodyIsHeardNobodyDrives) {
   ConvoyBench convoy;
   convoy.state = Convoy::initial(1, true, false);
-  convoy.send({0.0F, 5.0F});
-  EXPECT_NEAR(convoy.step().velocity.forward_m_s, 0.0F, 1e-3F);
-  EXPECT_GT(convoy.step().velocity.turn_rad_s, 0.5F);
-  BenchOf<Outwards> outwards;
-  outwards.state = Outwards::initial(1, true, false);
-  outwards.send({0.0F, 5.0F});
-  EXPECT_EQ(outwards.step().velocity.forward_m_s, 0.0F);
+  convoy.send({0.0F, 2.5F});
+  EXPECT_NEAR(convoy.step().motion.forward, 0.0F, 5e-3F);
+  EXPECT_GT(convoy.step().motion.turn, 5.0F);
+}
+
+// ---- paper ----
+
+TEST(HoldOfThePaper, BeforeAnybodyIsHeardNobodyDrives) {
+  Bench bench;
+  bench.state = Outwards::initial(1, true, false);
+  bench.send({0.0F, 2.5F});
+  EXPECT_EQ(bench.step().motion.forward, 0.0F);
 }
 
 }  // namespace

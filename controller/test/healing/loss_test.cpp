@@ -21,7 +21,7 @@ RC_GTEST_PROP(Loss, LivenessFollowsTheShareOfPacketsLost, ()) {
     for (RobotId id = 20; id < 40; ++id) {
       bench.silence(id);
       if (static_cast<float>(random() % 10000) >= loss * 10000.0F)
-        bench.put(id, {0.05F * static_cast<float>(id), 1.0F});
+        bench.put(id, {0.025F * static_cast<float>(id), 0.5F});
     }
     bench.step();
   }
@@ -32,11 +32,11 @@ RC_GTEST_PROP(Loss, LivenessFollowsTheShareOfPacketsLost, ()) {
 
 TEST(Loss, NobodyWaitsLongerWhereNothingIsLost) {
   Watch watch;
-  for (RobotId id = 20; id < 24; ++id) watch.bench.put(id, {0.1F * static_cast<float>(id), 0.5F});
+  for (RobotId id = 20; id < 24; ++id) watch.bench.put(id, {0.05F * static_cast<float>(id), 0.25F});
   watch.hear_root(200);
   watch.bench.silence(20);  // a death is no loss
   watch.hear_root(3);
-  EXPECT_LE(watch.bench.state.loss_ticks, watch.bench.params.ticks(watch.bench.params.liveness_period_s));
+  EXPECT_LE(watch.bench.state.loss_ticks, whole(watch.bench.params.liveness_rounds));
 }
 
 // A neighbour falls silent: a robot can tell whether that has another reason than the radio.
@@ -46,7 +46,7 @@ TEST(Loss, OnlySilencesWithoutAnyOtherReasonAreTheRadios) {
     bench.params.line_of_sight = line_of_sight;
     bench.state.turn = 0;
     bench.put(21, other);
-    if (obstacle) bench.obstacles.push_back({0.25F, 0.0F});
+    if (obstacle) bench.obstacles.push_back({0.125F, 0.0F});
     for (int k = 0; k < losses; ++k) {
       bench.put(20, at);
       bench.steps(2);
@@ -55,20 +55,20 @@ TEST(Loss, OnlySilencesWithoutAnyOtherReasonAreTheRadios) {
     }
     return static_cast<int>(bench.state.usual_silence);
   };
-  EXPECT_EQ(after_losses(2, {1.0F, 0.0F}, {0.0F, 1.0F}, true, false), 0) << "they may be deaths";
-  EXPECT_EQ(after_losses(3, {1.0F, 0.0F}, {0.0F, 1.0F}, true, false), 32);
-  EXPECT_EQ(after_losses(3, {1.95F, 0.0F}, {0.0F, 1.0F}, true, false), 0) << "it may have gone out of range";
-  EXPECT_EQ(after_losses(3, {1.0F, 0.0F}, {0.5F, 0.1F}, true, false), 0) << "a body hides it";
-  EXPECT_EQ(after_losses(3, {1.0F, 0.0F}, {0.5F, 0.1F}, false, false), 32) << "bodies hide nobody";
-  EXPECT_EQ(after_losses(3, {1.0F, 0.0F}, {0.0F, 1.0F}, true, true), 0) << "an obstacle may hide it";
-  EXPECT_EQ(after_losses(3, {1.0F, 0.0F}, {0.0F, 1.0F}, false, true), 32) << "obstacles hide nobody";
+  EXPECT_EQ(after_losses(2, {0.5F, 0.0F}, {0.0F, 0.5F}, true, false), 0) << "they may be deaths";
+  EXPECT_EQ(after_losses(3, {0.5F, 0.0F}, {0.0F, 0.5F}, true, false), 32);
+  EXPECT_EQ(after_losses(3, {0.975F, 0.0F}, {0.0F, 0.5F}, true, false), 0) << "it may have gone out of range";
+  EXPECT_EQ(after_losses(3, {0.5F, 0.0F}, {0.25F, 0.05F}, true, false), 0) << "a body hides it";
+  EXPECT_EQ(after_losses(3, {0.5F, 0.0F}, {0.25F, 0.05F}, false, false), 32) << "bodies hide nobody";
+  EXPECT_EQ(after_losses(3, {0.5F, 0.0F}, {0.0F, 0.5F}, true, true), 0) << "an obstacle may hide it";
+  EXPECT_EQ(after_losses(3, {0.5F, 0.0F}, {0.0F, 0.5F}, false, true), 32) << "obstacles hide nobody";
 }
 
 // Deaths that are far apart do not add up to a bad radio.
 TEST(Loss, SilencesOfLongAgoAreForgotten) {
   ConvoyBench bench = grown<Convoy>();
   for (const RobotId dead : {RobotId{20}, RobotId{21}, RobotId{22}, RobotId{23}}) {
-    bench.put(dead, {1.0F, 0.0F});
+    bench.put(dead, {0.5F, 0.0F});
     bench.steps(2);
     bench.silence(dead);
     bench.step();
@@ -80,8 +80,8 @@ TEST(Loss, SilencesOfLongAgoAreForgotten) {
 // Then silences that have ended say how long one may last. A child that comes back late makes patient.
 TEST(Loss, PatienceFollowsTheSilencesThatHaveEnded) {
   ConvoyBench bench = grown<Convoy>();
-  bench.put(20, {1.0F, 0.0F});
-  auto& child = bench.put(21, {0.0F, 1.0F});
+  bench.put(20, {0.5F, 0.0F});
+  auto& child = bench.put(21, {0.0F, 0.5F});
   child.role = Role::worker;
   child.parent = bench.state.id;
   bench.steps(5);
@@ -93,7 +93,7 @@ TEST(Loss, PatienceFollowsTheSilencesThatHaveEnded) {
   bench.silence(21);
   bench.steps(60);
   EXPECT_LE(bench.state.usual_silence, 32) << "a silence that lasts may be a death";
-  bench.put(21, {0.0F, 1.0F}) = said;
+  bench.put(21, {0.0F, 0.5F}) = said;
   bench.step();
   EXPECT_EQ(bench.state.usual_silence, 60);
   bench.steps(200);
@@ -114,7 +114,7 @@ TEST(Loss, AConnectorWaitsForItsChildAsLongAsAPacketMayBeLost) {
     }
     return ticks;
   };
-  EXPECT_EQ(ticks_as_connector(0), 11);  // connector_patience_s, and the tick in which it is over
+  EXPECT_EQ(ticks_as_connector(0), 11);  // connector_rounds, and the tick in which it is over
   EXPECT_EQ(ticks_as_connector(66), 67);
 }
 

@@ -27,11 +27,12 @@ struct Beside {
   int turn = 0;
   Beside() {
     bench.state.role = Role::spare;
-    bench.state.label_cm = 300;
-    bench.put_connector(2, {1.2F, 0.0F}, 100, 1);
+    bench.state.label = 300;
+    bench.put_connector(2, {0.6F, 0.0F}, 100, 1);
   }
   void put_three_more() {
-    for (const RobotId id : {RobotId{5}, RobotId{6}, RobotId{7}}) bench.put(id, {0.3F, 0.1F * static_cast<float>(id)});
+    for (const RobotId id : {RobotId{5}, RobotId{6}, RobotId{7}})
+      bench.put(id, {0.15F, 0.05F * static_cast<float>(id)});
   }
   void speak() { bench.say(2).count = named[static_cast<std::size_t>(turn++) % named.size()]; }
   Output<ConvoyMessage> steps(int count) {
@@ -48,7 +49,8 @@ struct Beside {
 
 TEST(Mutual, EveryNeighbourIsNamedInItsTurn) {
   ConvoyBench bench = grown<Convoy>();
-  for (const RobotId id : {RobotId{7}, RobotId{2}, RobotId{40}}) bench.put(id, {0.01F * static_cast<float>(id), 0.5F});
+  for (const RobotId id : {RobotId{7}, RobotId{2}, RobotId{40}})
+    bench.put(id, {0.005F * static_cast<float>(id), 0.25F});
   bench.steps(1);
   std::vector<RobotId> named;
   named.reserve(6);
@@ -67,14 +69,14 @@ bool takes_for_deaf(const std::vector<RobotId>& others, bool hears_me, float los
   ConvoyBench two = grown<Convoy>();
   two.state.id = 2;
   ConvoyBench one = grown<Convoy>();
-  for (const RobotId id : others) two.put(id, {0.3F + 0.001F * static_cast<float>(id), 0.4F});
-  for (std::size_t k = 0; k < others.size() && k < 40; ++k) one.put(others[k], {0.9F, 0.4F});  // it has room for 2
+  for (const RobotId id : others) two.put(id, {0.15F + 0.0005F * static_cast<float>(id), 0.2F});
+  for (std::size_t k = 0; k < others.size() && k < 40; ++k) one.put(others[k], {0.45F, 0.2F});  // it has room for 2
   for (int k = 0; k < ticks; ++k) {
     two.silence(1);
-    if (hears_me && arrives()) two.put(1, {1.2F, 0.0F});
+    if (hears_me && arrives()) two.put(1, {0.6F, 0.0F});
     const ConvoyMessage said = two.step().message;
     one.silence(2);
-    if (arrives()) one.put(2, {1.2F, 0.0F}) = said;
+    if (arrives()) one.put(2, {0.6F, 0.0F}) = said;
     const auto robot = one.tick();
     const int place = robot.table().find(2);
     if (place >= 0 && robot.is_deaf(place)) return true;
@@ -146,7 +148,7 @@ TEST(Mutual, NobodyIsPassedOverBetweenMessagesThatWereNotHeard) {
     const auto kept = f.bench.say(2);
     f.bench.silence(2);
     f.bench.step();
-    f.bench.put(2, {1.2F, 0.0F}) = kept;
+    f.bench.put(2, {0.6F, 0.0F}) = kept;
   }
   EXPECT_FALSE(f.is_deaf());
 }
@@ -186,9 +188,9 @@ TEST(Mutual, WhoIsTiedToNobodyComesNearerToWhoDoesNotHearIt) {
   std::set<RobotId> said;
   for (int k = 0; k < 8; ++k) said.insert(f.steps(1).message.count);
   EXPECT_TRUE(said.contains(1)) << "my own id: a call";
-  EXPECT_GT(f.steps(1).velocity.forward_m_s, 0.1F);
-  f.bench.move(2, {0.3F, 0.0F});
-  EXPECT_FLOAT_EQ(f.steps(1).velocity.forward_m_s, 0.0F) << "near enough";
+  EXPECT_GT(f.steps(1).motion.forward, 0.5F);
+  f.bench.move(2, {0.15F, 0.0F});
+  EXPECT_FLOAT_EQ(f.steps(1).motion.forward, 0.0F) << "near enough";
   f.named = {1};
   f.steps(4);
   EXPECT_FALSE(f.bench.state.calls);
@@ -209,7 +211,7 @@ void put_deaf(ConvoyBench& bench, RobotId id, Vec2 position, bool older) {
 TEST(Mutual, WhoIsOfAnOlderEpochIsFetched) {
   for (const bool older : {false, true}) {
     Beside f;
-    put_deaf(f.bench, 5, {0.0F, 1.2F}, older);
+    put_deaf(f.bench, 5, {0.0F, 0.6F}, older);
     f.named = {1};
     f.steps(2 * never_heard_for);
     EXPECT_EQ(f.bench.state.calls, older);
@@ -221,19 +223,19 @@ TEST(Mutual, WhoIsOfAnOlderEpochIsFetched) {
 TEST(Mutual, OfTwoToBeFetchedNeitherIsLeft) {
   for (const bool older : {false, true}) {
     Beside f;
-    put_deaf(f.bench, 5, {0.0F, 0.6F}, older);
-    put_deaf(f.bench, 6, {0.0F, -1.9F}, older);
+    put_deaf(f.bench, 5, {0.0F, 0.3F}, older);
+    put_deaf(f.bench, 6, {0.0F, -0.95F}, older);
     f.named = {1};
     f.steps(2 * never_heard_for);
-    f.bench.move(5, {0.0F, 0.6F});
-    f.bench.move(6, {0.0F, -1.9F});
+    f.bench.move(5, {0.0F, 0.3F});
+    f.bench.move(6, {0.0F, -0.95F});
     f.bench.say(6).grant = 7;  // its hold is another robot
     f.bench.state.usual_silence = 32;
     auto robot = f.bench.tick();
     robot.hold = robot.table().find(2);
     Guard guard;
     guard_links(robot, false, guard);
-    EXPECT_EQ(guard.apply({0.0F, 0.2F}).y < 0.1F, older);
+    EXPECT_EQ(guard.apply({0.0F, 1.0F}).y < 0.5F, older);
   }
 }
 
@@ -252,13 +254,13 @@ TEST(Mutual, WhoIsCalledComesNearerUntilTheCallEnds) {
   f.named = {1};
   f.steps(3);
   f.named = {2};
-  EXPECT_GT(f.steps(2).velocity.forward_m_s, 0.1F);
+  EXPECT_GT(f.steps(2).motion.forward, 0.5F);
   EXPECT_EQ(f.bench.state.calls, true) << "2 is nearer to the root: it is passed on";
-  f.bench.say(2).label_cm = 500;
+  f.bench.say(2).label = 500;
   f.steps(2);
   EXPECT_EQ(f.bench.state.calls, false) << "two robots would call each other for ever";
-  f.bench.move(2, {0.8F, 0.0F});
-  EXPECT_FLOAT_EQ(f.steps(1).velocity.forward_m_s, 0.0F) << "near enough";
+  f.bench.move(2, {0.4F, 0.0F});
+  EXPECT_FLOAT_EQ(f.steps(1).motion.forward, 0.0F) << "near enough";
   f.named = {1};
   f.steps(15);
   EXPECT_EQ(f.bench.state.called_ticks, 0);
@@ -277,7 +279,7 @@ RC_GTEST_PROP(Mutual, WhoNamesAnotherNeitherHearsMeNorPassesMeOver, ()) {
   Heard h = robot.heard[0];
   h.message = &message;
   h.place = 0;
-  h.before = {1.2F, 0.0F};
+  h.before = {0.6F, 0.0F};
   h.named_before = *any_id;
   const int deaf_ticks = *rc::gen::element(0, 1, 100, 101, 130);
   robot.self.neighbors.set_deaf(0, deaf_ticks);

@@ -17,7 +17,7 @@ class Network {
       : places_(std::move(places)), targets_(std::move(targets)), loss_(loss), random_(seed) {
     for (std::size_t i = 0; i < places_.size(); ++i)
       states.push_back(initial_convoy_state(static_cast<RobotId>(i), is_sent(i), i == 0));
-    params.give_up_after_s = 300.0F;
+    params.give_up_after_drives = 30.0F;
     alive_.assign(places_.size(), true);
     for (const ConvoyState& state : states) said_.emplace_back().id = state.id;
   }
@@ -28,15 +28,13 @@ class Network {
       if (!alive_[i]) continue;
       heard_.clear();
       for (std::size_t j = 0; j < states.size(); ++j) {
-        if (j == i || !alive_[j] || distance(places_[i], places_[j]) >= params.communication_range_m ||
-            chance() < loss_)
-          continue;
+        if (j == i || !alive_[j] || distance(places_[i], places_[j]) >= 1.0F || chance() < loss_) continue;
         heard_.push_back({&said_[j], places_[j] - places_[i]});
       }
       Senses senses;
       senses.orders.sent = is_sent(i);
       if (is_sent(i)) senses.orders.target = targets_[i - first_worker()] - places_[i];
-      next[i] = convoy_step(params, states[i], {heard_, senses, params}).message;
+      next[i] = convoy_step(params, states[i], {heard_, senses, test_platform}).message;
     }
     said_ = next;
   }

@@ -10,13 +10,13 @@ namespace banyan {
 namespace {
 
 constexpr RobotId sent_worker = 1;
-constexpr int ten_s = 100;
+constexpr int a_drive = 100;  // ticks
 
 // A worker beside the root, sent to a target; what it knows of its own motion is that it does not move.
 struct Worker : Watch {
-  explicit Worker(Vec2 target, Vec2 root = {0.5F, 0.0F}) : Watch(root) {
+  explicit Worker(Vec2 target, Vec2 root = {0.25F, 0.0F}) : Watch(root) {
     bench.state = initial_convoy_state(sent_worker, true, false);
-    bench.params.give_up_after_s = 10.0F;
+    bench.params.give_up_after_drives = 1.0F;
     bench.send(target);
     hear_root(20);
     EXPECT_TRUE(bench.state.is_worker);
@@ -34,9 +34,9 @@ struct Worker : Watch {
 };
 
 TEST(Progress, AWorkerThatDrivesInVainGivesUp) {
-  Worker worker({3.0F, 0.0F});
-  worker.hear_root(ten_s - 30);
-  ASSERT_GT(worker.bench.step().velocity.forward_m_s, 0.05F);
+  Worker worker({1.5F, 0.0F});
+  worker.hear_root(a_drive - 30);
+  ASSERT_GT(worker.bench.step().motion.forward, 0.25F);
   EXPECT_TRUE(worker.serves());
   worker.hear_root(60);
   EXPECT_FALSE(worker.serves());
@@ -45,130 +45,131 @@ TEST(Progress, AWorkerThatDrivesInVainGivesUp) {
 }
 
 TEST(Progress, OneThatGetsOnDoesNot) {
-  Worker worker({3.0F, 0.0F});
+  Worker worker({1.5F, 0.0F});
   for (int tick = 0; tick < 400; ++tick) {
-    worker.bench.send({3.0F - 0.0025F * static_cast<float>(tick), 0.0F});
+    worker.bench.send({1.5F - 0.00125F * static_cast<float>(tick), 0.0F});
     worker.hear_root(1);
   }
   EXPECT_TRUE(worker.serves());
 }
 
 TEST(Progress, NorOneThatWaitsForOthers) {
-  Worker worker({3.0F, 0.0F}, {-1.8F, 0.0F});
-  worker.bench.move(root_id, {-1.9F, 0.0F});  // its edge is as long as it may be
+  Worker worker({1.5F, 0.0F}, {-0.9F, 0.0F});
+  worker.bench.move(root_id, {-0.95F, 0.0F});  // its edge is as long as it may be
   EXPECT_TRUE(worker.serves_for(600));
 }
 
 // ... nor one that is pulled back as often as it gets on.
 TEST(Progress, ToAndFroIsNoDrive) {
-  Worker worker({3.0F, 0.0F});
+  Worker worker({1.5F, 0.0F});
   for (int k = 0; k < 40; ++k) {
-    worker.bench.move(root_id, {k % 2 == 0 ? -1.99F : 0.5F, 0.0F});
+    worker.bench.move(root_id, {k % 2 == 0 ? -0.995F : 0.25F, 0.0F});
     ASSERT_TRUE(worker.serves_for(k % 2 == 0 ? 60 : 20));
   }
 }
 
-// A worker that moves as the test says: `forward_m` in each of the ticks.
+// A worker that moves as the test says: `forward` in each of the ticks.
 struct Driven : Worker {
-  float left_m = 3.0F;
+  float left = 1.5F;
   using Worker::Worker;
-  void drive(int ticks, float forward_m, bool root_beats = true) {
+  void drive(int ticks, float forward, bool root_beats = true) {
     for (int k = 0; k < ticks; ++k) {
-      bench.send({left_m -= forward_m, 0.0F});
+      bench.send({left -= forward, 0.0F});
       if (root_beats) bench.say(root_id).heartbeat = count++;
-      bench.step({forward_m, 0.0F, 0.0F});
+      bench.step({forward, 0.0F, 0.0F});
     }
   }
 };
 
 // ... nor one that has been led away, as far as it may drive in vain, and comes back.
 TEST(Progress, TheWayItWasLedAwayItMayDriveAgain) {
-  Driven worker({3.0F, 0.0F});
-  worker.bench.move(root_id, {-1.99F, 0.0F});  // too far: it follows
-  worker.drive(2 * ten_s, -0.02F);
-  worker.bench.move(root_id, {0.5F, 0.0F});
-  worker.drive(2 * ten_s, 0.018F);
+  Driven worker({1.5F, 0.0F});
+  worker.bench.move(root_id, {-0.995F, 0.0F});  // too far: it follows
+  worker.drive(2 * a_drive, -0.01F);
+  worker.bench.move(root_id, {0.25F, 0.0F});
+  worker.drive(2 * a_drive, 0.009F);
   EXPECT_TRUE(worker.serves());
 }
 
 // ... or has gone by itself, because it heard of no root.
 TEST(Progress, AfterARetreatTheWayBeginsAnew) {
-  Driven worker({3.0F, 0.0F});
-  worker.drive(ten_s - 70, 0.0F);
-  worker.drive(ten_s, -0.02F, false);
-  worker.drive(ten_s / 2, 0.018F);
+  Driven worker({1.5F, 0.0F});
+  worker.drive(a_drive - 70, 0.0F);
+  worker.drive(a_drive, -0.01F, false);
+  worker.drive(a_drive / 2, 0.009F);
   EXPECT_TRUE(worker.serves());
 }
 
 TEST(Progress, NorOneThatIsThere) {
-  Worker worker({0.05F, 0.0F});
+  Worker worker({0.025F, 0.0F});
   EXPECT_TRUE(worker.serves_for(600));
 }
 
 TEST(Progress, InSightOfObstaclesItLooksForAWayForLong) {
-  Worker worker({3.0F, 0.0F});
-  worker.bench.obstacles = {{-0.25F, 0.0F}};
-  worker.hear_root(14 * ten_s);
+  Worker worker({1.5F, 0.0F});
+  worker.bench.obstacles = {{-0.125F, 0.0F}};
+  worker.hear_root(14 * a_drive);
   EXPECT_TRUE(worker.serves());
-  worker.hear_root(5 * ten_s);
+  worker.hear_root(5 * a_drive);
   EXPECT_FALSE(worker.serves());
 }
 
 // A long corridor: walls in sight all the time, and it gets on.
 TEST(Progress, AlongWallsItMayDriveForever) {
-  Worker worker({19.5F, 0.0F});
-  worker.bench.obstacles = {{-0.25F, 0.0F}};
-  constexpr float a_tick_m = 0.0075F;
-  for (int tick = 1; tick <= 25 * ten_s; ++tick) {
-    worker.bench.send({19.5F - a_tick_m * static_cast<float>(tick), 0.0F});
-    worker.hear_root(1, {.forward_m = a_tick_m});
+  Worker worker({9.75F, 0.0F});
+  worker.bench.obstacles = {{-0.125F, 0.0F}};
+  constexpr float a_tick = 0.00375F;
+  for (int tick = 1; tick <= 25 * a_drive; ++tick) {
+    worker.bench.send({9.75F - a_tick * static_cast<float>(tick), 0.0F});
+    worker.hear_root(1, {.forward_m = a_tick});
     ASSERT_TRUE(worker.serves()) << tick;
   }
 }
 
 TEST(Progress, AndBehindATargetThatDrivesAway) {
-  Worker worker({3.0F, 0.0F});
-  for (int tick = 0; tick < 14 * ten_s; ++tick) {
-    worker.bench.send({3.0F + 0.005F * static_cast<float>(tick), 0.0F});
+  Worker worker({1.5F, 0.0F});
+  for (int tick = 0; tick < 14 * a_drive; ++tick) {
+    worker.bench.send({1.5F + 0.0025F * static_cast<float>(tick), 0.0F});
     worker.hear_root(1);
   }
   EXPECT_TRUE(worker.serves());
 }
 
 TEST(Progress, ATargetThatIsMovedIsANewWay) {
-  Worker worker({3.0F, 0.0F});
+  Worker worker({1.5F, 0.0F});
   for (int leap = 0; leap < 5; ++leap) {
-    worker.hear_root(ten_s - 30);
-    worker.bench.send({3.0F + 0.5F * static_cast<float>(leap % 2), 1.0F});
+    worker.hear_root(a_drive - 30);
+    worker.bench.send({1.5F + 0.25F * static_cast<float>(leap % 2), 0.5F});
   }
   EXPECT_TRUE(worker.serves());
 }
 
 // It has waited in vain for a spare, has gone home and sets out anew: the way out again is not in vain.
 TEST(Progress, WhoHasRetreatedHasAllTheWayBeforeIt) {
-  Worker worker({3.0F, 0.0F});
+  Worker worker({1.5F, 0.0F});
   worker.hear_root(20);
-  float left_m = 3.0F;
-  const auto drive = [&](bool retreats, float to_m) {
-    const float step_m = to_m > left_m ? 0.02F : -0.02F;
-    while ((to_m - left_m) * step_m > 0.0F) {
-      left_m += step_m;
-      worker.bench.send({left_m, 0.0F});
-      ConvoyRobot robot = worker.bench.tick({-step_m, 0.0F, 0.0F});
-      watch_progress(robot, retreats, {step_m > 0.0F ? -0.2F : 0.2F, 0.0F});
+  float left = 1.5F;
+  const auto drive = [&](bool retreats, float to) {
+    const float step = to > left ? 0.01F : -0.01F;
+    while ((to - left) * step > 0.0F) {
+      left += step;
+      worker.bench.send({left, 0.0F});
+      ConvoyRobot robot = worker.bench.tick({-step, 0.0F, 0.0F});
+      watch_progress(robot, retreats, {step > 0.0F ? -1.0F : 1.0F, 0.0F});
     }
   };
-  drive(true, 8.0F);
-  drive(false, 3.5F);
+  drive(true, 4.0F);
+  drive(false, 1.75F);
   EXPECT_TRUE(worker.serves());
 }
 
 TEST(Progress, WhoGaveUpTriesAgainAfterAllOthers) {
-  Worker worker({3.0F, 0.0F});
-  worker.hear_root(ten_s + 20);
+  Worker worker({1.5F, 0.0F});
+  worker.hear_root(a_drive + 20);
   ASSERT_FALSE(worker.serves());
   const auto& p = worker.bench.params;
-  const int others = 2 * p.ticks(p.liveness_period_s) + p.ticks(p.succession_after_s + p.succession_spread_s_m * 3.0F);
+  const int others =
+      2 * whole(p.liveness_rounds) + whole(p.succession_after_rounds + p.succession_spread_rounds * 1.5F);
   worker.hear_root(others + 300);
   EXPECT_FALSE(worker.serves());
   worker.hear_root(150);
@@ -176,9 +177,9 @@ TEST(Progress, WhoGaveUpTriesAgainAfterAllOthers) {
 }
 
 TEST(Progress, WhereRobotsForgetTheTargetIsInDoubtAtOnce) {
-  Worker worker({3.0F, 0.0F});
+  Worker worker({1.5F, 0.0F});
   worker.bench.state.forgets = true;
-  worker.hear_root(ten_s + 20);
+  worker.hear_root(a_drive + 20);
   ASSERT_FALSE(worker.serves());
   bool said = false;
   for (int k = 0; k < 4; ++k) {
@@ -189,8 +190,8 @@ TEST(Progress, WhereRobotsForgetTheTargetIsInDoubtAtOnce) {
 }
 
 TEST(Progress, ATargetGivenUpInVainCanStillBeWithdrawn) {
-  Worker worker({3.0F, 0.0F});
-  worker.hear_root(ten_s + 20);
+  Worker worker({1.5F, 0.0F});
+  worker.hear_root(a_drive + 20);
   ASSERT_FALSE(worker.serves());
   worker.bench.call_back();
   worker.hear_root(1);
@@ -199,12 +200,12 @@ TEST(Progress, ATargetGivenUpInVainCanStillBeWithdrawn) {
 
 // It stays where it is, and knows better than anybody where the target is that it was sent to.
 TEST(Progress, WhoWasSentStillKnowsThePlace) {
-  Worker worker({3.0F, 0.0F});
-  worker.hear_root(ten_s + 20);
+  Worker worker({1.5F, 0.0F});
+  worker.hear_root(a_drive + 20);
   ASSERT_FALSE(worker.serves());
-  worker.bench.send({2.0F, 2.0F});
+  worker.bench.send({1.0F, 1.0F});
   worker.hear_root(2);
-  EXPECT_NEAR(find_task(worker.bench.state, sent_worker)->target.y, 2.0F, 0.01F);
+  EXPECT_NEAR(find_task(worker.bench.state, sent_worker)->target.y, 1.0F, 0.005F);
 }
 
 }  // namespace

@@ -12,18 +12,18 @@ namespace banyan {
 namespace {
 
 TEST(Retreat, WhoHearsOfNoRootDrivesToWhereItWas) {
-  Watch watch({1.95F, 0.0F});
+  Watch watch({0.975F, 0.0F});
   watch.bench.state.turn = 200;  // no thin start
   watch.hear_root(200);
-  watch.bench.state.root_at = {6.0F, 0.0F};
+  watch.bench.state.root_at = {3.0F, 0.0F};
   watch.bench.silence(root_id);
   const ConvoyParams& p = watch.bench.params;
-  watch.bench.steps(p.ticks(p.retreat_after_s) + 2 * p.ticks(p.liveness_period_s) + 1);
+  watch.bench.steps(whole(p.retreat_after_rounds) + 2 * whole(p.liveness_rounds) + 1);
   auto robot = watch.bench.tick();
   EXPECT_TRUE(is_retreating(robot, false));
   EXPECT_GT(retreat_motion(robot, false, true).x, 0.9F);
-  EXPECT_GT(watch.bench.step().velocity.forward_m_s, 0.15F);
-  watch.bench.put(root_id, {1.95F, 0.0F}).heartbeat = watch.count;
+  EXPECT_GT(watch.bench.step().motion.forward, 0.75F);
+  watch.bench.put(root_id, {0.975F, 0.0F}).heartbeat = watch.count;
   watch.bench.step();
   auto back = watch.bench.tick();
   EXPECT_FALSE(is_retreating(back, false));
@@ -33,14 +33,14 @@ TEST(Retreat, WhoHearsOfNoRootDrivesToWhereItWas) {
 TEST(Retreat, ThePatienceFollowsTheSilencesThatAreUsual) {
   const auto ticks_until = [](std::uint8_t usual_silence, Phase phase, bool thin_start = false,
                               bool line_of_sight = false) {
-    Watch watch({1.95F, 0.0F});
+    Watch watch({0.975F, 0.0F});
     watch.bench.params.line_of_sight = line_of_sight;
     watch.bench.state.turn = 200;  // so that it does not look now whether its start is thin
     watch.bench.state.neighbors_at_start = thin_start ? 2 : 0;
     watch.hear_root(50);
     auto& state = watch.bench.state;
     state.phase = watch.bench.say(root_id).phase = phase;
-    state.root_at = {6.0F, 0.0F};
+    state.root_at = {3.0F, 0.0F};
     watch.bench.silence(root_id);
     int ticks = 0;
     for (; ticks < 1000; ++ticks) {
@@ -52,11 +52,9 @@ TEST(Retreat, ThePatienceFollowsTheSilencesThatAreUsual) {
     return ticks;
   };
   const int ticks = ticks_until(0, Phase::grow_tree);
-  EXPECT_EQ(ticks_until(30, Phase::grow_tree),
-            ticks + 4 * 30 - 2 * convoy_defaults().ticks(convoy_defaults().liveness_period_s));
+  EXPECT_EQ(ticks_until(30, Phase::grow_tree), ticks + 4 * 30 - 2 * whole(convoy_defaults().liveness_rounds));
   EXPECT_EQ(ticks_until(0, Phase::start_tree), ticks);
-  EXPECT_EQ(ticks_until(30, Phase::start_tree),
-            ticks + 2 * 100 - 2 * convoy_defaults().ticks(convoy_defaults().liveness_period_s));
+  EXPECT_EQ(ticks_until(30, Phase::start_tree), ticks + 2 * 100 - 2 * whole(convoy_defaults().liveness_rounds));
   EXPECT_EQ(ticks_until(0, Phase::grow_tree, true), ticks);
   EXPECT_EQ(ticks_until(30, Phase::grow_tree, true), ticks_until(30, Phase::start_tree));
   EXPECT_EQ(ticks_until(0, Phase::grow_tree, false, true), ticks);
@@ -66,16 +64,16 @@ TEST(Retreat, ThePatienceFollowsTheSilencesThatAreUsual) {
 // With more targets than a robot remembers the straight way to the root may lead past the rest of the tree.
 TEST(Retreat, WithManyTargetsAnOrphanFirstSeeksThePlaceOfItsParent) {
   const auto course = [](bool many, float root_y, int ticks) {
-    Watch watch({-1.9F, root_y});
+    Watch watch({-0.95F, root_y});
     ConvoyBench& bench = watch.bench;
     bench.state.turn = 200;
-    auto& m = bench.put(3, {1.5F, 0.0F});
+    auto& m = bench.put(3, {0.75F, 0.0F});
     m = bench.say(root_id);
     m.id = 3;
     m.role = Role::connector;
     m.parent = root_id;
     m.depth = 2;
-    m.label_cm = 10;
+    m.label = 10;
     watch.hear_root(2);
     auto& state = bench.state;
     state.is_worker = true;
@@ -83,7 +81,7 @@ TEST(Retreat, WithManyTargetsAnOrphanFirstSeeksThePlaceOfItsParent) {
     state.parent = 3;
     state.committed = true;
     watch.hear_root(2);
-    state.root_at = {-6.0F, root_y};
+    state.root_at = {-3.0F, root_y};
     bench.silence(3);
     bench.silence(root_id);
     state.forgets = many;
@@ -96,30 +94,30 @@ TEST(Retreat, WithManyTargetsAnOrphanFirstSeeksThePlaceOfItsParent) {
     EXPECT_TRUE(is_retreating(robot, false));
     return retreat_motion(robot, false, true);
   };
-  const int soon = convoy_defaults().ticks(5.0F);
+  const int soon = convoy_defaults().rounds(0.5F);
   EXPECT_LT(course(false, 1.0F, soon).x, -0.5F) << "else to the root";
   const Vec2 left = course(true, 1.0F, soon);
   EXPECT_GT(left.x, 0.5F);
   EXPECT_GT(left.y, 0.2F) << "past the dead robot on the side of the root";
   EXPECT_LT(course(true, -1.0F, soon).y, -0.2F);
-  EXPECT_LT(course(true, 1.0F, convoy_defaults().ticks(15.0F)).x, -0.5F) << "in vain";
+  EXPECT_LT(course(true, 1.0F, convoy_defaults().rounds(1.5F)).x, -0.5F) << "in vain";
 }
 
 TEST(Retreat, TheSilentHoldNobodyBack) {
-  Watch watch({-1.95F, 0.0F});
+  Watch watch({-0.975F, 0.0F});
   watch.bench.state.turn = 200;  // no thin start
   watch.hear_root(3);
   auto& state = watch.bench.state;
   state.parent = root_id;
   state.committed = true;
   watch.hear_root(2);
-  state.root_at = {6.0F, 0.0F};  // as if somebody had told
+  state.root_at = {3.0F, 0.0F};  // as if somebody had told
   state.parent = root_id;
   watch.bench.silence(root_id);
   state.silence_ticks = 100;
   watch.bench.steps(8);
   state.parent = root_id;
-  EXPECT_GT(watch.bench.step().velocity.forward_m_s, 0.15F);
+  EXPECT_GT(watch.bench.step().motion.forward, 0.75F);
 }
 
 // Drives as it is told, and measures it.
@@ -130,8 +128,9 @@ struct Drive {
   Odometry moved{};
   void steps(int ticks) {
     for (int tick = 0; tick < ticks; ++tick) {
-      const auto v = bench.step(moved).velocity;
-      moved = {v.forward_m_s * 0.1F, 0.0F, v.turn_rad_s * 0.1F};
+      const auto v = bench.step(moved).motion;
+      const float drives = bench.params.way_in_a_round();  // C, or a drive in a round
+      moved = {v.forward * drives, 0.0F, v.turn * drives};
       place += heading * moved.forward_m;
       const Vec2 turn = unit_vector(moved.turn_rad);
       heading = {heading.x * turn.x - heading.y * turn.y, heading.x * turn.y + heading.y * turn.x};
@@ -140,29 +139,29 @@ struct Drive {
 };
 
 TEST(Search, ARootThatHearsNobodyLooksForTheOthers) {
-  Watch watch({1.0F, 0.0F});
+  Watch watch({0.5F, 0.0F});
   watch.hear_root(10);
   ConvoyBench& bench = watch.bench;
   const ConvoyParams& p = bench.params;
   bench.silence(root_id);
   bench.state.root = {9, bench.state.id};
   Drive drive{bench};
-  drive.steps(p.ticks(p.regroup_after_s));
-  EXPECT_LT(norm(drive.place), 0.01F) << "a radio may fall silent for a while";
+  drive.steps(p.rounds(p.regroup_after_drives));
+  EXPECT_LT(norm(drive.place), 0.005F) << "a radio may fall silent for a while";
   drive.steps(600);
-  EXPECT_GT(norm(drive.place), 0.5F * p.communication_range_m);
+  EXPECT_GT(norm(drive.place), 0.5F);
   // It comes by on all sides, farther out at every turn.
   bool sides[4] = {};
-  const float before_m = norm(drive.place);
+  const float before = norm(drive.place);
   for (int k = 0; k < 100; ++k) {
     drive.steps(10);
     sides[(drive.place.x > 0.0F ? 1 : 0) + (drive.place.y > 0.0F ? 2 : 0)] = true;
   }
   EXPECT_TRUE(sides[0] && sides[1] && sides[2] && sides[3]);
-  EXPECT_GT(norm(drive.place), before_m + 0.1F);
-  EXPECT_LT(norm(drive.place), before_m + p.communication_range_m) << "nor past anybody";
+  EXPECT_GT(norm(drive.place), before + 0.05F);
+  EXPECT_LT(norm(drive.place), before + 1.0F) << "nor past anybody";
   // It hears somebody: the search is over, and the next one begins from here.
-  watch.bench.put(33, {1.5F, 0.0F});
+  watch.bench.put(33, {0.75F, 0.0F});
   bench.step();
   EXPECT_EQ(bench.state.silence_ticks, 0);
   EXPECT_EQ(bench.state.root_at, Vec2{});
@@ -179,26 +178,26 @@ TEST(Search, WhoHasNeverHeardAnybodyWaits) {
 }
 
 TEST(Regroup, AWorkerWhoseEdgeWaitsInVainDrivesHomeAndTakesAnInnerHold) {
-  Watch watch({-1.5F, 0.0F});
+  Watch watch({-0.75F, 0.0F});
   ConvoyBench& bench = watch.bench;
   bench.state.parent = 5;
-  bench.state.label_cm = 400;
-  bench.send({1.0F, 0.0F});
-  auto& m = bench.put(5, {-1.85F, 0.0F});
+  bench.state.label = 400;
+  bench.send({0.5F, 0.0F});
+  auto& m = bench.put(5, {-0.925F, 0.0F});
   m.role = Role::connector;
   m.parent = root_id;
   m.depth = 2;
   m.tree_hops = 0;
-  m.label_cm = 100;
+  m.label = 100;
   m.committed = true;
   m.child_count = 2;
-  bench.move(root_id, {-1.89F, 0.6F});
+  bench.move(root_id, {-0.945F, 0.3F});
   watch.hear_root(350);
   EXPECT_FALSE(is_left_waiting(bench.tick()));
   EXPECT_EQ(bench.state.parent, 5);
   watch.hear_root(150);
   EXPECT_TRUE(is_left_waiting(bench.tick()));
-  bench.move(root_id, {-1.7F, 0.6F});
+  bench.move(root_id, {-0.85F, 0.3F});
   watch.hear_root(2);
   EXPECT_EQ(bench.state.parent, root_id);
   EXPECT_FALSE(is_left_waiting(bench.tick())) << "it sets out anew";

@@ -14,11 +14,11 @@ namespace {
 // Robot 2 alone is heard.
 struct AtEnd {
   ConvoyBench bench;
-  explicit AtEnd(float range_m, Phase phase = Phase::grow_tree, int steps = 12) : bench(grown<Convoy>()) {
+  explicit AtEnd(float range, Phase phase = Phase::grow_tree, int steps = 12) : bench(grown<Convoy>()) {
     bench.params.line_of_sight = false;
     bench.state.phase = phase;
     bench.state.turn = 0;
-    bench.put(2, {range_m, 0.0F});
+    bench.put(2, {range, 0.0F});
     bench.steps(steps);
   }
   bool awaits(Vec2& u) {
@@ -33,14 +33,14 @@ struct AtEnd {
 
 TEST(ThinStart, TheEndWaitsForWhoMayHearItAndGoesTowardsIt) {
   Vec2 u;
-  AtEnd f(1.2F);
+  AtEnd f(0.6F);
   f.bench.state.turn = 60;
   EXPECT_FALSE(f.awaits(u)) << "no packet has been lost";
   f.bench.state.usual_silence = 32;
   EXPECT_TRUE(f.awaits(u));
   EXPECT_LT(u.x, 0.0F) << "away from the only neighbour";
   u = {};
-  f.bench.move(2, {1.5F, 0.0F});
+  f.bench.move(2, {0.75F, 0.0F});
   EXPECT_TRUE(f.awaits(u));
   EXPECT_EQ(u, Vec2{}) << "far enough";
   f.bench.state.turn = 160;
@@ -48,13 +48,13 @@ TEST(ThinStart, TheEndWaitsForWhoMayHearItAndGoesTowardsIt) {
   f.bench.state.turn = UINT16_MAX;
   f.bench.steps(30);
   EXPECT_FALSE(f.awaits(u)) << "nor when its count of ticks wraps";
-  AtEnd near(0.5F);
+  AtEnd near(0.25F);
   near.bench.state.usual_silence = 32;
   EXPECT_FALSE(near.awaits(u)) << "a compact start";
 }
 
 TEST(ThinStart, ABurstIsASignOfLostPackets) {
-  AtEnd f(1.2F);
+  AtEnd f(0.6F);
   f.bench.state.turn = 60;
   EXPECT_FALSE(f.awaits());
   f.bench.state.burst_ticks = 20;
@@ -63,17 +63,17 @@ TEST(ThinStart, ABurstIsASignOfLostPackets) {
 
 TEST(ThinStart, NobodyMovesInTheFirstSecondsOrBeforeItHasHeardOfARoot) {
   for (const Phase phase : {Phase::init, Phase::start_tree, Phase::grow_tree}) {
-    EXPECT_EQ(AtEnd(1.5F, phase).awaits(), phase == Phase::init) << "no link is near C";
-    AtEnd f(1.7F, phase);
+    EXPECT_EQ(AtEnd(0.75F, phase).awaits(), phase == Phase::init) << "no link is near C";
+    AtEnd f(0.85F, phase);
     Vec2 u;
     EXPECT_TRUE(f.awaits(u)) << "a burst may hide a neighbour";
     EXPECT_EQ(u, Vec2{});
     f.bench.state.turn = 60;
     EXPECT_EQ(f.awaits(), phase == Phase::init);
-    EXPECT_FALSE(AtEnd(0.5F, phase).awaits()) << "a compact start";
+    EXPECT_FALSE(AtEnd(0.25F, phase).awaits()) << "a compact start";
   }
-  EXPECT_TRUE(AtEnd(1.2F, Phase::init, 3).awaits()) << "before it is known whether the start is thin";
-  AtEnd early(1.7F, Phase::start_tree, 3);
+  EXPECT_TRUE(AtEnd(0.6F, Phase::init, 3).awaits()) << "before it is known whether the start is thin";
+  AtEnd early(0.85F, Phase::start_tree, 3);
   EXPECT_TRUE(early.awaits());
   early.bench.state.missed_in_the_clear = 1;
   EXPECT_TRUE(early.awaits());
@@ -93,8 +93,8 @@ TEST(ThinStart, WhoHasHeardNobodyIsAtAnEnd) {
 
 TEST(ThinStart, WhoIsHeardLateCountsUntilARootIsHeardOf) {
   for (const Phase phase : {Phase::init, Phase::grow_tree}) {
-    AtEnd f(1.2F, phase);
-    f.bench.put(3, {-1.5F, 0.0F});
+    AtEnd f(0.6F, phase);
+    f.bench.put(3, {-0.75F, 0.0F});
     f.bench.steps(2);
     EXPECT_EQ(f.bench.state.neighbors_at_start, phase == Phase::init ? 2 : 1);
   }
@@ -102,7 +102,7 @@ TEST(ThinStart, WhoIsHeardLateCountsUntilARootIsHeardOf) {
 
 TEST(ThinStart, TheFirstSilenceIsALossAndLaterAFirstOneMayBeADeath) {
   for (const int turn : {20, 60}) {
-    AtEnd f(1.2F);
+    AtEnd f(0.6F);
     f.bench.state.turn = static_cast<std::uint16_t>(turn);
     f.bench.silence(2);
     f.bench.step();
@@ -112,13 +112,13 @@ TEST(ThinStart, TheFirstSilenceIsALossAndLaterAFirstOneMayBeADeath) {
 
 // It may have been hidden by a burst, and the way to it may lead away from others that have not been heard yet.
 TEST(ThinStart, NobodyDrivesToWhoDoesNotHearItWhereLinksAreNearC) {
-  for (const float range_m : {1.5F, 1.7F}) {
-    AtEnd f(range_m);
+  for (const float range : {0.75F, 0.85F}) {
+    AtEnd f(range);
     auto robot = f.bench.tick();
     robot.gap = robot.table().find(2);
-    Vec2 u{1.0F, 0.0F};
+    Vec2 u{0.5F, 0.0F};
     EXPECT_TRUE(closes_gap(robot, u));
-    EXPECT_EQ(u == Vec2{}, range_m > 1.6F);
+    EXPECT_EQ(u == Vec2{}, range > 0.8F);
     f.bench.state.turn = 60;
     EXPECT_TRUE(closes_gap(robot, u));
     EXPECT_GT(u.x, 0.9F) << "later it does";
@@ -127,27 +127,27 @@ TEST(ThinStart, NobodyDrivesToWhoDoesNotHearItWhereLinksAreNearC) {
 
 // Else a burst in the first second hides a neighbour of which nobody knows any more when the start is found to be thin.
 TEST(ThinStart, WhoFallsSilentBeforeItIsFoundToBeThinIsKept) {
-  for (const float range_m : {0.5F, 1.5F}) {
-    AtEnd f(range_m, Phase::start_tree, 2);
-    f.bench.put(3, {-range_m, 0.0F});
+  for (const float range : {0.25F, 0.75F}) {
+    AtEnd f(range, Phase::start_tree, 2);
+    f.bench.put(3, {-range, 0.0F});
     f.bench.steps(2);
     f.bench.silence(3);
     f.bench.steps(20);
-    EXPECT_EQ(f.bench.tick().table().find(3) >= 0, range_m > 1.0F) << "not in a crowd";
+    EXPECT_EQ(f.bench.tick().table().find(3) >= 0, range > 0.5F) << "not in a crowd";
   }
 }
 
 // It is pulled to nobody: by those that it hears less well it is held as much.
 TEST(ThinStart, BeforeARootIsHeardOfNobodyStrays) {
   for (const Phase phase : {Phase::init, Phase::start_tree}) {
-    AtEnd f(1.8F, phase);
+    AtEnd f(0.9F, phase);
     f.bench.state.usual_silence = 32;
     f.bench.silence(2);
     f.bench.steps(20);
     auto robot = f.bench.tick();
     const int k = robot.table().find(2);
     ASSERT_GE(k, 0);
-    EXPECT_EQ(strayed_m(robot, k) > 0.0F, phase != Phase::init);
+    EXPECT_EQ(strayed_way(robot, k) > 0.0F, phase != Phase::init);
   }
 }
 
@@ -155,8 +155,8 @@ TEST(ThinStart, BeforeARootIsHeardOfNobodyStrays) {
 TEST(ThinStart, WhoHasNotHeardOfARootWaitsForAHold) {
   for (const Phase phase : {Phase::init, Phase::grow_tree}) {
     ConvoyBench bench = grown<Convoy>();
-    bench.put(2, {0.0F, -1.0F});
-    ConvoyMessage& m = bench.put(5, {0.0F, 1.9F});
+    bench.put(2, {0.0F, -0.5F});
+    ConvoyMessage& m = bench.put(5, {0.0F, 0.95F});
     m.role = Role::spare;
     m.phase = phase;
     m.epoch = static_cast<Serial>(bench.state.epoch - 1);
@@ -166,7 +166,7 @@ TEST(ThinStart, WhoHasNotHeardOfARootWaitsForAHold) {
     robot.hold = robot.table().find(2);
     Guard guard;
     guard_links(robot, false, guard);
-    EXPECT_EQ(guard.apply({0.0F, -0.2F}).y > -0.1F, phase == Phase::init) << "of another epoch: cut off";
+    EXPECT_EQ(guard.apply({0.0F, -1.0F}).y > -0.5F, phase == Phase::init) << "of another epoch: cut off";
   }
 }
 

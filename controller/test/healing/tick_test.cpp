@@ -16,35 +16,35 @@ RobotId serves(const ConvoyBench& bench) { return healing_report(bench.state).se
 TEST(Orders, WhoIsSentServesItsTarget) {
   ConvoyBench bench = grown<Convoy>();
   EXPECT_EQ(serves(bench), nobody);
-  bench.send({3.0F, 4.0F});
+  bench.send({1.5F, 2.0F});
   const auto m = bench.step().message;
   EXPECT_EQ(m.role, Role::worker);
   EXPECT_EQ(m.serves, 1);
-  EXPECT_EQ(m.want_cm, 500);
+  EXPECT_EQ(m.want, 640);
   EXPECT_EQ(serves(bench), 1);
 }
 
 TEST(Orders, WhoIsCalledBackIsNoWorkerAnyMore) {
   ConvoyBench bench = grown<Convoy>();
-  bench.send({3.0F, 4.0F});
+  bench.send({1.5F, 2.0F});
   bench.steps(3);
   bench.call_back();
   const auto m = bench.step().message;
   EXPECT_NE(m.role, Role::worker);
   EXPECT_EQ(m.serves, nobody);
-  EXPECT_EQ(m.want_cm, 0);
+  EXPECT_EQ(m.want, 0);
   EXPECT_EQ(serves(bench), nobody);
 }
 
 TEST(Orders, ATargetIsCarriedAlongWhileItIsNotSensed) {
   ConvoyBench bench = grown<Convoy>();
-  bench.send({3.0F, 4.0F});
+  bench.send({1.5F, 2.0F});
   bench.step();
   bench.orders.target.reset();
-  for (int k = 0; k < 10; ++k) bench.step({.forward_m = 0.1F});
-  EXPECT_EQ(bench.step().message.want_cm, static_cast<int>(100.0 * std::hypot(2.0, 4.0) + 0.5));
+  for (int k = 0; k < 10; ++k) bench.step({.forward_m = 0.05F});
+  EXPECT_EQ(bench.step().message.want, static_cast<int>(256.0 * std::hypot(1.0, 2.0) + 0.5));
   const auto m = bench.step({.turn_rad = 1.5F}).message;
-  EXPECT_EQ(m.want_cm, static_cast<int>(100.0 * std::hypot(2.0, 4.0) + 0.5)) << "a turn leads no nearer";
+  EXPECT_EQ(m.want, static_cast<int>(256.0 * std::hypot(1.0, 2.0) + 0.5)) << "a turn leads no nearer";
   bench.call_back();
   bench.step();
   bench.orders.sent = true;
@@ -54,7 +54,7 @@ TEST(Orders, ATargetIsCarriedAlongWhileItIsNotSensed) {
 
 TEST(Orders, ATargetThatIsGivenUpHasNoWorkerUntilSomebodyIsSentAgain) {
   ConvoyBench bench = grown<Convoy>();
-  bench.send({3.0F, 4.0F});
+  bench.send({1.5F, 2.0F});
   bench.steps(3);
   bench.orders = {.sent = false, .target = std::nullopt, .given_up = 1};
   const auto m = bench.step().message;
@@ -63,14 +63,14 @@ TEST(Orders, ATargetThatIsGivenUpHasNoWorkerUntilSomebodyIsSentAgain) {
   EXPECT_EQ(m.task_holder, nobody) << "and everybody is told";
   bench.orders = {};
   bench.steps(3);
-  bench.send({0.0F, 2.0F});
-  EXPECT_EQ(bench.step().message.want_cm, 200);
+  bench.send({0.0F, 1.0F});
+  EXPECT_EQ(bench.step().message.want, 256);
   EXPECT_EQ(serves(bench), 1);
 }
 
 TEST(Orders, ATargetThatEndsWhileItIsPutOffIsNotTriedAgain) {
   ConvoyBench bench = grown<Convoy>();
-  bench.send({3.0F, 4.0F});
+  bench.send({1.5F, 2.0F});
   bench.steps(3);
   bench.state.is_worker = false;
   bench.state.serves = nobody;
@@ -87,11 +87,11 @@ TEST(Orders, ATargetThatEndsWhileItIsPutOffIsNotTriedAgain) {
 
 TEST(Orders, WhoIsSentElsewhereInTheSameTickGoesOnWithTheNewTarget) {
   ConvoyBench bench = grown<Convoy>();
-  bench.send({3.0F, 4.0F});
+  bench.send({1.5F, 2.0F});
   bench.steps(3);
-  bench.send({0.0F, 2.0F});
+  bench.send({0.0F, 1.0F});
   bench.orders.given_up = 1;
-  EXPECT_EQ(bench.step().message.want_cm, 200);
+  EXPECT_EQ(bench.step().message.want, 256);
   EXPECT_EQ(serves(bench), 1);
 }
 
@@ -99,9 +99,9 @@ TEST(Orders, WhoIsSentElsewhereInTheSameTickGoesOnWithTheNewTarget) {
 TEST(Orders, WhoHasResignedStaysSoUntilItIsCalledBackAndSentAgain) {
   Watch watch;
   ConvoyBench& bench = watch.bench;
-  bench.send({3.0F, 0.0F});
+  bench.send({1.5F, 0.0F});
   watch.hear_root(3);
-  auto& rival = bench.put(50, {1.0F, 0.5F});
+  auto& rival = bench.put(50, {0.5F, 0.25F});
   rival.task_serves = 1;
   rival.task_holder = 0;  // smaller than mine, but not the first: I stay
   rival.task_beat = 100;
@@ -118,7 +118,7 @@ TEST(Orders, WhoHasResignedStaysSoUntilItIsCalledBackAndSentAgain) {
   EXPECT_EQ(serves(bench), nobody) << "still sent, but that is no news";
   bench.call_back();
   watch.hear_root(1);
-  bench.send({0.0F, 2.0F});
+  bench.send({0.0F, 1.0F});
   watch.hear_root(1);
   EXPECT_EQ(serves(bench), 1);
 }
@@ -128,7 +128,7 @@ struct Successor : Watch {
   Successor() {
     hear_root(2);
     for (std::uint16_t beat = 10; beat < 15; ++beat) {
-      tell_of_target(20, {1.0F, 0.0F}, {2.0F, 1.0F}, 50, beat);
+      tell_of_target(20, {0.5F, 0.0F}, {1.0F, 0.5F}, 50, beat);
       hear_root(1);
     }
     hear_root(120);
@@ -157,10 +157,10 @@ TEST(Orders, ASuccessorStopsWhenItsTargetIsGivenUp) {
 
 TEST(Orders, ASuccessorThatIsSentItselfServesItsOwn) {
   Successor successor;
-  successor.bench.send({-2.0F, 0.0F});
+  successor.bench.send({-1.0F, 0.0F});
   successor.hear_root(1);
   EXPECT_EQ(serves(successor.bench), 1);
-  EXPECT_NEAR(successor.bench.state.want_m, 2.0F, 0.01F);
+  EXPECT_NEAR(successor.bench.state.want, 1.0F, 0.005F);
 }
 
 // ---- News: packets that say what the robot did not know ----
@@ -171,9 +171,9 @@ template <class Kind> int news_of(const std::function<void(typename BenchOf<Kind
   bench.state.phase = Phase::grow_tree;
   bench.state.root = bench.state.heart = {5, 9};
   bench.state.heartbeat = 100;
-  auto& message = bench.put(2, {1, 0});
+  auto& message = bench.put(2, {0.5F, 0});
   message.heartbeat = 100;
-  bench.put(3, {0, 1}).heartbeat = 99;
+  bench.put(3, {0, 0.5F}).heartbeat = 99;
   say(message);
   const auto robot = bench.tick();
   int count = 0;
@@ -199,10 +199,11 @@ template <class Kind> void expect_news() {
   EXPECT_EQ(news_of<Kind>([](Message& m) { m.id = 9; }), 1);  // the root itself
 }
 
-TEST(News, IsWhatTheRobotDidNotKnow) {
-  expect_news<Inwards>();
-  expect_news<Convoy>();
-}
+TEST(News, IsWhatTheRobotDidNotKnow) { expect_news<Convoy>(); }
+
+// ---- paper ----
+
+TEST(NewsOfThePaper, IsWhatTheRobotDidNotKnow) { expect_news<Inwards>(); }
 
 }  // namespace
 }  // namespace banyan

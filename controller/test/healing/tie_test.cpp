@@ -18,10 +18,10 @@ using Speech = std::function<void(TreeMessage&)>;
 bool may_depend_on_me(bool tied, const Speech& speech, RobotId hold = nobody) {
   BenchOf<Convoy> bench;
   bench.state.role = Role::connector;
-  bench.put(2, {1.0F, 0.0F});
+  bench.put(2, {0.5F, 0.0F});
   if (tied) bench.state.parent = 2;
   bench.state.hold = hold;
-  TreeMessage& m = bench.put(speaker, {0.0F, 1.0F});
+  TreeMessage& m = bench.put(speaker, {0.0F, 0.5F});
   m.role = Role::connector;
   m.parent = 3;
   speech(m);
@@ -62,8 +62,8 @@ TEST(Tie, InAThinStartWithLineOfSightWhoIsSilentMayOnlyBeHidden) {
     bench.state.neighbors_at_start = static_cast<std::uint8_t>(neighbors_at_start);
     bench.params.line_of_sight = line_of_sight;
     bench.state.parent = 2;
-    bench.put(2, {1.0F, 0.1F});
-    bench.put_child(speaker, {1.9F, 0.0F}, Role::worker);
+    bench.put(2, {0.5F, 0.05F});
+    bench.put_child(speaker, {0.95F, 0.0F}, Role::worker);
     bench.tick();
     bench.silence(speaker);
     for (int k = 1; k < ticks; ++k) bench.tick();

@@ -10,20 +10,20 @@
 namespace banyan {
 
 inline constexpr RobotId root_id = 9;
-inline constexpr float very_long_s = 300.0F;
+inline constexpr float very_long_drives = 30.0F;
 
 // A robot of a grown tree with its root in sight; the root counts ticks.
 struct Watch {
   ConvoyBench bench = grown<Convoy>();
   std::uint16_t count = 100;
-  explicit Watch(Vec2 root = {0.5F, 0.0F}) {
-    bench.params.give_up_after_s = very_long_s;  // it stands still whatever it wants
-    bench.state.label_cm = static_cast<std::uint16_t>(std::lround(norm(root) * 100.0F));
+  explicit Watch(Vec2 root = {0.25F, 0.0F}) {
+    bench.params.give_up_after_drives = very_long_drives;  // it stands still whatever it wants
+    bench.state.label = static_cast<std::uint16_t>(std::lround(norm(root) * per_range));
     auto& m = bench.put(root_id, root);
     m.role = Role::root;
     m.depth = 1;
     m.tree_hops = 0;
-    m.label_cm = 0;
+    m.label = 0;
     m.committed = true;
   }
   void hear_root(int ticks, const Odometry& odometry = {}) {
@@ -41,8 +41,8 @@ struct Watch {
     m.task_serves = serves;
     m.task_holder = serves;
     m.task_beat = beat;
-    m.task_x_cm = static_cast<std::int16_t>(std::lround(v.x * 100.0F));
-    m.task_y_cm = static_cast<std::int16_t>(std::lround(v.y * 100.0F));
+    m.task_x = Coordinate::of(v.x);
+    m.task_y = Coordinate::of(v.y);
   }
 };
 

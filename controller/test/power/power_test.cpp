@@ -67,7 +67,7 @@ struct LoneRobot {
     Senses senses;
     senses.charge = Charge{level, charging};
     std::vector<Heard> heard;
-    return powered_convoy_step(params, state, {heard, senses, params}).message;
+    return powered_convoy_step(params, state, {heard, senses, test_platform}).message;
   }
 };
 
@@ -107,7 +107,7 @@ TEST(Power, WithoutAMeasuredChargeNothingIsDecided) {
   LoneRobot root(false, true);
   std::vector<Heard> heard;
   PoweredConvoyMessage said;
-  for (int t = 0; t < 50; ++t) said = powered_convoy_step(root.params, root.state, {heard, {}, root.params}).message;
+  for (int t = 0; t < 50; ++t) said = powered_convoy_step(root.params, root.state, {heard, {}, test_platform}).message;
   EXPECT_FALSE(said.leaving);
   EXPECT_EQ(said.level, 0xFF);
 }
@@ -118,9 +118,9 @@ class AboveALeaver : public ::testing::Test {
   AboveALeaver() {
     bench.state.role = Role::connector;
     bench.state.parent = 9;
-    bench.put(9, {-1.5F, 0.0F}).role = Role::root;
-    bench.put_child(2, {0.2F, 0.0F}, Role::connector).child_count = 1;
-    auto& below = bench.put(3, {1.7F, 0.0F});
+    bench.put(9, {-0.75F, 0.0F}).role = Role::root;
+    bench.put_child(2, {0.1F, 0.0F}, Role::connector).child_count = 1;
+    auto& below = bench.put(3, {0.85F, 0.0F});
     below.role = Role::connector;
     below.parent = 2;
     leaver.leaving = true;
@@ -132,9 +132,7 @@ class AboveALeaver : public ::testing::Test {
     power.standings[static_cast<std::size_t>(robot.table().find(2))] = leaver;
     const auto child_count = [&](int k) { return int{robot.convoy_of(k).child_count}; };
     PowerRobot me{robot, power, bench.params, child_count};
-    Senses senses;
-    senses.charge = Charge{level, false};
-    watch_charge(me, senses);
+    watch_charge(me, Charge{level, false}, {});
     watch_relief(me);
     return power.said.relieves;
   }
@@ -151,7 +149,7 @@ TEST_F(AboveALeaver, TakesItsPlaceIfItHasMoreCharge) {
 }
 
 TEST_F(AboveALeaver, NotWhereItIsNotBesideIt) {
-  bench.move(2, {0.7F, 0.0F});
+  bench.move(2, {0.35F, 0.0F});
   EXPECT_EQ(relieved(0.9F), nobody);
 }
 
@@ -175,9 +173,9 @@ TEST_F(AboveALeaver, StandsThereOnceItHearsAllOfItsChildren) {
     PowerRobot me{robot, power, bench.params, child_count};
     ASSERT_TRUE(find_relief_spot(me, spot));
   }
-  bench.move(9, Vec2{-1.5F, 0.0F} - spot);
-  bench.move(2, Vec2{0.2F, 0.0F} - spot);
-  bench.move(3, Vec2{1.7F, 0.0F} - spot);
+  bench.move(9, Vec2{-0.75F, 0.0F} - spot);
+  bench.move(2, Vec2{0.1F, 0.0F} - spot);
+  bench.move(3, Vec2{0.85F, 0.0F} - spot);
   bench.say(2).child_count = 2;  // one that is hidden
   relieved(0.9F);
   EXPECT_FALSE(power.said.in_place);
@@ -190,28 +188,28 @@ TEST_F(AboveALeaver, StandsThereOnceItHearsAllOfItsChildren) {
 TEST_F(AboveALeaver, RemembersForAWhileWhereAHiddenChildWas) {
   bench.say(2).child_count = 2;
   relieved(0.9F);
-  EXPECT_NEAR(power.unseen.x, 2.2F, 1e-4F) << "right behind the leaver";
-  EXPECT_NEAR(power.unseen.y, 0.0F, 1e-4F);
-  bench.move(2, {0.0F, 0.2F});
+  EXPECT_NEAR(power.unseen.x, 1.1F, 5e-5F) << "right behind the leaver";
+  EXPECT_NEAR(power.unseen.y, 0.0F, 5e-5F);
+  bench.move(2, {0.0F, 0.1F});
   for (int tick = 1; tick < 50; ++tick) relieved(0.9F);
-  EXPECT_NEAR(power.unseen.x, 2.2F, 1e-4F) << "where it was";
+  EXPECT_NEAR(power.unseen.x, 1.1F, 5e-5F) << "where it was";
   for (int tick = 0; tick < 3; ++tick) relieved(0.9F);
-  EXPECT_NEAR(power.unseen.y, 2.2F, 1e-4F) << "after 5 s behind it as seen from here";
+  EXPECT_NEAR(power.unseen.y, 1.1F, 5e-5F) << "after half a drive behind it as seen from here";
   bench.say(2).child_count = 1;
   relieved(0.9F);
   EXPECT_EQ(power.unseen_ticks, 0);
 }
 
-// Where a spare goes that robot 2, 1.8 m ahead and below robot 9, has let into its edge so long ago.
-Vec2 course_to_leaver(ConvoyBench& bench, float since_s) {
+// Where a spare goes that robot 2, 0.9 C ahead and below robot 9, has let into its edge so long ago.
+Vec2 course_to_leaver(ConvoyBench& bench, float drives) {
   bench.state.role = Role::spare;
-  auto& leaver = bench.put(2, {1.8F, 0.0F});
+  auto& leaver = bench.put(2, {0.9F, 0.0F});
   leaver.role = Role::connector;
   leaver.parent = 9;
   auto robot = bench.tick();
   bench.state.spare_state = SpareState::extend_edge;
   bench.state.request = 2;
-  bench.state.request_ticks = static_cast<std::uint16_t>(since_s / bench.params.tick_s);
+  bench.state.request_ticks = static_cast<std::uint16_t>(bench.params.rounds(drives));
   PowerState power;
   power.standings[static_cast<std::size_t>(robot.table().find(2))].leaving = true;
   PowerRobot me{robot, power, bench.params, no_children};
@@ -225,38 +223,38 @@ TEST(Power, ASpareGoesToTheLeaverPastARobotThatStandsInItsWay) {
     bench.put(9, parent).role = Role::connector;
     return unit(course_to_leaver(bench, 0.0F));
   };
-  EXPECT_GT(course({0.9F, -1.0F}).x, 0.95F) << "nobody is in the way";
-  EXPECT_GT(course({0.9F, -0.02F}).y, 0.3F);
-  EXPECT_LT(course({0.9F, 0.02F}).y, -0.3F);
+  EXPECT_GT(course({0.45F, -0.5F}).x, 0.95F) << "nobody is in the way";
+  EXPECT_GT(course({0.45F, -0.01F}).y, 0.3F);
+  EXPECT_LT(course({0.45F, 0.01F}).y, -0.3F);
 }
 
 TEST(Power, ASpareThatIsKeptOffDrivesOnAfterAWhile) {
-  const auto course = [](float since_s) {
+  const auto course = [](float drives) {
     auto bench = grown<Convoy>();
     // An edge between two robots lies across its way.
-    bench.put(9, {0.1F, 0.34F}).role = Role::connector;
-    auto& other = bench.put(8, {0.1F, -0.34F});
+    bench.put(9, {0.05F, 0.17F}).role = Role::connector;
+    auto& other = bench.put(8, {0.05F, -0.17F});
     other.role = Role::connector;
     other.parent = 9;
-    return course_to_leaver(bench, since_s);
+    return course_to_leaver(bench, drives);
   };
-  EXPECT_GT(std::abs(course(1.0F).y), 0.5F) << "turned aside by the edge";
-  EXPECT_NEAR(course(9.0F).y, 0.0F, 0.1F);
-  EXPECT_GT(course(9.0F).x, 0.9F);
+  EXPECT_GT(std::abs(course(0.1F).y), 0.5F) << "turned aside by the edge";
+  EXPECT_NEAR(course(0.9F).y, 0.0F, 0.1F);
+  EXPECT_GT(course(0.9F).x, 0.9F);
 }
 
 TEST(Power, ATravellerGoesRoundTheRobotThatHidesTheWay) {
   auto bench = grown<Convoy>();
   bench.state.role = Role::spare;
-  bench.put(9, {0.2F, 0.0F}).role = Role::connector;
+  bench.put(9, {0.1F, 0.0F}).role = Role::connector;
   auto robot = bench.tick();
   PowerState power;
   power.travels = true;
-  power.way = {0.2F, 0.0F};
+  power.way = {0.1F, 0.0F};
   PowerRobot me{robot, power, bench.params, no_children};
   robot.power = &me;
   EXPECT_GT(std::abs(unit(waiting_motion(robot)).y), 0.4F) << "not to and from it";
-  power.way = {1.0F, 0.0F};
+  power.way = {0.5F, 0.0F};
   bench.move(9, power.way);
   EXPECT_GT(unit(waiting_motion(robot)).x, 0.99F);
 }
@@ -267,8 +265,8 @@ class AmongLeavers : public ::testing::Test {
   AmongLeavers() {
     bench.state.role = Role::connector;
     bench.state.parent = 9;
-    bench.put(9, {-1.5F, 0.0F}).role = Role::connector;
-    bench.put_child(2, {1.5F, 0.0F}, Role::connector);
+    bench.put(9, {-0.75F, 0.0F}).role = Role::connector;
+    bench.put_child(2, {0.75F, 0.0F}, Role::connector);
   }
   // Whether it asks for a spare, with such charges of 254.
   bool asks(std::uint8_t above, std::uint8_t mine, std::uint8_t below, bool child_leaves) {
@@ -306,16 +304,14 @@ TEST_F(AmongLeavers, AClearlyEmptierRobotGoesBeforeThoseBelowIt) {
 // A robot (id 1) beside robot 5, which says what the test makes it say.
 class BesideAnother : public ::testing::Test {
  protected:
-  BesideAnother() { bench.put(5, {1.5F, 0.0F}).role = Role::connector; }
+  BesideAnother() { bench.put(5, {0.75F, 0.0F}).role = Role::connector; }
   void tell(Role self_role, float level, std::uint8_t place_hops) {
     auto robot = bench.tick();
     bench.state.role = self_role;
     power.standings[static_cast<std::size_t>(robot.table().find(5))].place_hops = place_hops;
     PowerRobot me{robot, power, bench.params, no_children};
-    Senses senses;
-    senses.charge = Charge{level, false};
     power.level = -1.0F;  // no smoothing
-    watch_charge(me, senses);
+    watch_charge(me, Charge{level, false}, {});
     call_hops = robot.call_hops;
   }
   ConvoyBench bench = grown<Convoy>();
@@ -341,7 +337,7 @@ TEST_F(BesideAnother, HearsOnlyCallsOfThisTickOrTheLastAndNoneThatHaveGoneOnForT
   ASSERT_TRUE(robot.table().alive(robot.table().find(5)));
   EXPECT_EQ(robot.call_hops, relief_call + 3);
   PowerRobot me{robot, power, bench.params, no_children};
-  watch_charge(me, {});
+  watch_charge(me, std::nullopt, {});
   EXPECT_EQ(robot.call_hops, nobody_calls);
 }
 
@@ -376,8 +372,8 @@ TEST_F(BesideAnother, DoesNotTurnBackOnItsWayToARelief) {
 class OnItsWay : public ::testing::Test {
  protected:
   OnItsWay() {
-    bench.put(5, {1.5F, 0.0F}).role = Role::connector;
-    bench.put(6, {0.4F, 0.4F}).role = Role::connector;
+    bench.put(5, {0.75F, 0.0F}).role = Role::connector;
+    bench.put(6, {0.2F, 0.2F}).role = Role::connector;
   }
   Vec2 tick(float forward_m = 0.0F) {
     Odometry odometry;
@@ -387,9 +383,7 @@ class OnItsWay : public ::testing::Test {
     for (const auto& [id, hops] : {std::pair{RobotId{5}, hops_of_5}, std::pair{RobotId{6}, std::uint8_t{2}}})
       if (const int k = robot.table().find(id); k >= 0) power.standings[static_cast<std::size_t>(k)].place_hops = hops;
     PowerRobot me{robot, power, bench.params, no_children};
-    Senses senses;
-    senses.charge = Charge{0.3F, false};
-    watch_charge(me, senses);
+    watch_charge(me, Charge{0.15F, false}, {});
     tend_battery(me);
     return power.way;
   }
@@ -399,12 +393,12 @@ class OnItsWay : public ::testing::Test {
 };
 
 TEST_F(OnItsWay, DrivesToWhereTheRobotAheadWasAlsoWhenItIsHidden) {
-  EXPECT_NEAR(tick().x, 1.5F, 1e-3F);
+  EXPECT_NEAR(tick().x, 0.75F, 5e-4F);
   ASSERT_TRUE(power.travels);
   bench.silence(5);
   for (int t = 0; t < 30; ++t) tick();
-  EXPECT_NEAR(tick(0.5F).x, 1.0F, 1e-3F) << "its own way is subtracted";
-  EXPECT_NEAR(tick(0.7F).y, 0.4F, 1e-3F) << "there, it takes the next one";
+  EXPECT_NEAR(tick(0.25F).x, 0.5F, 5e-4F) << "its own way is subtracted";
+  EXPECT_NEAR(tick(0.35F).y, 0.2F, 5e-4F) << "there, it takes the next one";
 }
 
 TEST_F(OnItsWay, LeavesARobotThatHasLostTheWay) {
@@ -417,7 +411,7 @@ TEST_F(OnItsWay, LeavesARobotThatHasLostTheWay) {
 TEST_F(OnItsWay, PrefersARobotOfTheTreeToASpareAsFarAway) {
   hops_of_5 = 2;
   bench.say(6).role = Role::spare;
-  EXPECT_NEAR(tick().x, 1.5F, 1e-3F) << "though the spare is nearer";
+  EXPECT_NEAR(tick().x, 0.75F, 5e-4F) << "though the spare is nearer";
 }
 
 // A spare (id 1) beside a connector that needs a companion, and from which the way to a place is known.
@@ -444,11 +438,12 @@ TEST(Power, ACompanionThatHasToBeChargedGoes) {
   worker.role = Role::worker;
   worker.parent = 2;
   const auto beside_after = [&](int ticks, float level) {
-    std::vector<Heard> heard{{&root, {-1.8F, 1.0F}}, {&connector, {0.0F, 1.0F}}, {&worker, {1.8F, 1.0F}}};
+    std::vector<Heard> heard{{&root, {-0.9F, 0.5F}}, {&connector, {0.0F, 0.5F}}, {&worker, {0.9F, 0.5F}}};
     Senses senses;
     senses.charge = Charge{level, false};
     RobotId below = nobody;
-    for (int t = 0; t < ticks; ++t) below = powered_convoy_step(params, state, {heard, senses, params}).message.below;
+    for (int t = 0; t < ticks; ++t)
+      below = powered_convoy_step(params, state, {heard, senses, test_platform}).message.below;
     return below;
   };
   EXPECT_EQ(beside_after(10, 0.95F), 2);
@@ -462,7 +457,7 @@ class Choosing : public ::testing::Test {
     state.epoch = 2;
     state.phase = Phase::select_parent;
     state.root = {1, 9};
-    state.label_cm = 300;
+    state.label = 300;
     for (PoweredConvoyMessage* m : {&first, &second}) {
       m->epoch = 2;
       m->phase = Phase::select_parent;
@@ -470,17 +465,17 @@ class Choosing : public ::testing::Test {
       m->level = 250;
     }
     first.id = 5;
-    first.label_cm = 150;
+    first.label = 150;
     second.id = 6;
-    second.label_cm = 100;  // so that by its label it is preferred
+    second.label = 100;  // so that by its label it is preferred
   }
   RobotId parent() {
-    std::vector<Heard> heard{{&first, {1.0F, 0.6F}}, {&second, {1.0F, -0.6F}}};
+    std::vector<Heard> heard{{&first, {0.5F, 0.3F}}, {&second, {0.5F, -0.3F}}};
     Senses senses;
-    senses.charge = Charge{0.9F, false};
+    senses.charge = Charge{0.45F, false};
     senses.orders.sent = true;
-    senses.orders.target = Vec2{0.0F, 0.01F};  // it is there
-    return powered_convoy_step(params, state, {heard, senses, params}).message.parent;
+    senses.orders.target = Vec2{0.0F, 0.005F};  // it is there
+    return powered_convoy_step(params, state, {heard, senses, test_platform}).message.parent;
   }
   ConvoyParams params = convoy_defaults();
   PoweredConvoyState state = initial_powered_state(1, true, false);
@@ -529,11 +524,11 @@ TEST(Power, ARobotWithLessChargeSeemsNearerAndMoreUrgentCallsOfOthersAreNotDrown
 class CalledSpare : public ::testing::Test {
  protected:
   // Whether it goes, if the other spare is so far from the caller.
-  static bool goes(float other_m, std::uint8_t other_level, std::uint8_t call = relief_call) {
+  static bool goes(float other_away, std::uint8_t other_level, std::uint8_t call = relief_call) {
     auto bench = grown<Convoy>();
     bench.state.role = Role::spare;
-    bench.put(9, {1.5F, 0.0F}).role = Role::connector;
-    auto& other = bench.put(5, {1.5F, other_m});
+    bench.put(9, {0.75F, 0.0F}).role = Role::connector;
+    auto& other = bench.put(5, {0.75F, other_away});
     other.role = Role::spare;
     other.call_hops = static_cast<std::uint8_t>(call + 2);
     auto robot = bench.tick();
@@ -551,10 +546,10 @@ class CalledSpare : public ::testing::Test {
 };
 
 TEST_F(CalledSpare, GoesUnlessAnotherChargedOneIsNearer) {
-  EXPECT_TRUE(goes(1.7F, 250));
-  EXPECT_FALSE(goes(1.0F, 250));
-  EXPECT_TRUE(goes(1.0F, 100));      // that one is not charged
-  EXPECT_FALSE(goes(1.0F, 250, 0));  // nor to an edge that holds workers back
+  EXPECT_TRUE(goes(0.85F, 250));
+  EXPECT_FALSE(goes(0.5F, 250));
+  EXPECT_TRUE(goes(0.5F, 100));      // that one is not charged
+  EXPECT_FALSE(goes(0.5F, 250, 0));  // nor to an edge that holds workers back
 }
 
 // Otherwise it would be far from the next call, or empty before it comes.
@@ -562,7 +557,7 @@ TEST(Power, AChargedSpareWaitsWithinTwoHopsOfAPlace) {
   const auto goes = [](std::uint8_t hops) {
     auto bench = grown<Convoy>();
     bench.state.role = Role::spare;
-    bench.put(5, {1.5F, 0.0F}).role = Role::connector;
+    bench.put(5, {0.75F, 0.0F}).role = Role::connector;
     auto robot = bench.tick();
     PowerState power;
     power.level = 0.95F;
@@ -582,8 +577,8 @@ TEST(Power, AtAPlaceRobotsWithEnoughChargeMakeRoomForThoseWithout) {
   const auto leaves = [](bool seeks, bool charging, float level, std::uint8_t other_level) {
     auto bench = grown<Convoy>();
     bench.state.role = Role::spare;
-    bench.put(5, {0.5F, 0.0F}).role = Role::worker;  // keeps the place
-    bench.put(6, {0.0F, 0.6F}).role = Role::spare;
+    bench.put(5, {0.25F, 0.0F}).role = Role::worker;  // keeps the place
+    bench.put(6, {0.0F, 0.3F}).role = Role::spare;
     auto robot = bench.tick();
     PowerState power;
     power.level = level;
@@ -602,31 +597,31 @@ TEST(Power, AtAPlaceRobotsWithEnoughChargeMakeRoomForThoseWithout) {
 }
 
 TEST(Power, ASpareThatWaitsIsSlowUnlessItHidesAnEdge) {
-  const auto pace = [](float off_m, bool called) {
+  const auto pace = [](float off, bool called) {
     auto bench = grown<Convoy>();
     bench.state.role = Role::spare;
     bench.state.called = called;
-    bench.put(9, {-0.8F, off_m}).role = Role::connector;
-    auto& child = bench.put(2, {0.8F, off_m});
+    bench.put(9, {-0.4F, off}).role = Role::connector;
+    auto& child = bench.put(2, {0.4F, off});
     child.role = Role::connector;
     child.parent = 9;
     auto robot = bench.tick();
     bench.state.called = called;
     PowerState power;
     Guard guard;
-    return give_way(PowerRobot{robot, power, bench.params, no_children}, bench.params.clearance_m, guard);
+    return give_way(PowerRobot{robot, power, bench.params, no_children}, bench.params.clearance, guard);
   };
-  EXPECT_LT(pace(0.6F, false), 0.5F);
-  EXPECT_EQ(pace(0.1F, false), 1.0F);
-  EXPECT_EQ(pace(0.6F, true), 1.0F);
+  EXPECT_LT(pace(0.3F, false), 0.5F);
+  EXPECT_EQ(pace(0.05F, false), 1.0F);
+  EXPECT_EQ(pace(0.3F, true), 1.0F);
 }
 
-// How fast a spare may drive towards an edge so far ahead of it, at 0.2 m/s if nothing limits it.
-float speed_towards_edge(float ahead_m, bool leaving, RobotId grant, bool joins = false) {
+// How fast a spare may drive towards an edge so far ahead of it, at v_max if nothing limits it.
+float speed_towards_edge(float ahead, bool leaving, RobotId grant, bool joins = false) {
   auto bench = grown<Convoy>();
   bench.state.role = Role::spare;
-  bench.put(9, {-0.8F, ahead_m}).role = Role::connector;
-  auto& child = bench.put(2, {0.8F, ahead_m});
+  bench.put(9, {-0.4F, ahead}).role = Role::connector;
+  auto& child = bench.put(2, {0.4F, ahead});
   child.role = Role::connector;
   child.parent = 9;
   child.grant = grant;
@@ -635,17 +630,17 @@ float speed_towards_edge(float ahead_m, bool leaving, RobotId grant, bool joins 
   PowerState power;
   power.standings[static_cast<std::size_t>(robot.table().find(2))].leaving = leaving;
   Guard guard;
-  std::ignore = give_way(PowerRobot{robot, power, bench.params, no_children}, bench.params.clearance_m, guard);
-  return guard.apply({0.0F, 0.2F}).y;
+  std::ignore = give_way(PowerRobot{robot, power, bench.params, no_children}, bench.params.clearance, guard);
+  return guard.apply({0.0F, 1.0F}).y;
 }
 
 TEST(Power, NoSpareDrivesIntoAnEdgeOfRobotsThatChangePlaces) {
-  EXPECT_EQ(speed_towards_edge(0.18F, false, nobody), 0.2F) << "nobody leaves";
-  EXPECT_EQ(speed_towards_edge(0.18F, true, nobody), 0.2F) << "nobody comes to relieve it";
-  EXPECT_NEAR(speed_towards_edge(0.18F, true, 7), 0.0F, 1e-3F);
-  EXPECT_LT(speed_towards_edge(0.12F, true, 7), -0.05F) << "it makes room";
-  EXPECT_EQ(speed_towards_edge(0.05F, true, 7), 0.2F) << "it is in there already";
-  EXPECT_GT(speed_towards_edge(0.18F, true, 7, true), 0.1F) << "one that joins an edge needs less room";
+  EXPECT_EQ(speed_towards_edge(0.09F, false, nobody), 1.0F) << "nobody leaves";
+  EXPECT_EQ(speed_towards_edge(0.09F, true, nobody), 1.0F) << "nobody comes to relieve it";
+  EXPECT_NEAR(speed_towards_edge(0.09F, true, 7), 0.0F, 5e-3F);
+  EXPECT_LT(speed_towards_edge(0.06F, true, 7), -0.25F) << "it makes room";
+  EXPECT_EQ(speed_towards_edge(0.025F, true, 7), 1.0F) << "it is in there already";
+  EXPECT_GT(speed_towards_edge(0.09F, true, 7, true), 0.5F) << "one that joins an edge needs less room";
 }
 
 TEST_F(AboveALeaver, BeginsOnlyWhileItHearsAllItsTreeNeighbours) {
@@ -654,45 +649,45 @@ TEST_F(AboveALeaver, BeginsOnlyWhileItHearsAllItsTreeNeighbours) {
   leaver.leaving = true;
   bench.silence(9);
   EXPECT_EQ(relieved(0.9F), nobody);
-  bench.put(9, {-1.5F, 0.0F}).role = Role::root;
+  bench.put(9, {-0.75F, 0.0F}).role = Role::root;
   EXPECT_EQ(relieved(0.9F), 2);
   bench.silence(9);
   EXPECT_EQ(relieved(0.9F), 2) << "begun, it goes on";
 }
 
 TEST_F(AboveALeaver, DoesNotGoWhereTheLeaverHidesItsParent) {
-  bench.move(2, {-0.2F, 0.11F});
+  bench.move(2, {-0.1F, 0.055F});
   relieved(0.9F);
   auto robot = bench.tick();
   Guard guard;
-  std::ignore = give_way(PowerRobot{robot, power, bench.params, no_children}, bench.params.clearance_m, guard);
-  EXPECT_LT(guard.apply({0.0F, 0.2F}).y, 0.05F);
-  EXPECT_EQ(guard.apply({0.0F, -0.2F}).y, -0.2F);
+  std::ignore = give_way(PowerRobot{robot, power, bench.params, no_children}, bench.params.clearance, guard);
+  EXPECT_LT(guard.apply({0.0F, 1.0F}).y, 0.25F);
+  EXPECT_EQ(guard.apply({0.0F, -1.0F}).y, -1.0F);
 }
 
 TEST(Power, TheSpotBesideALeaverIsOnThisSideOfWhereItHidesAChild) {
   auto bench = grown<Convoy>();
   bench.state.role = Role::connector;
   bench.state.parent = 9;
-  bench.put(9, {0.0F, 1.6F}).role = Role::root;
-  bench.put_child(2, {0.3F, 0.1F}, Role::connector);
-  bench.put_child(3, {1.7F, 0.1F}, Role::connector);
+  bench.put(9, {0.0F, 0.8F}).role = Role::root;
+  bench.put_child(2, {0.15F, 0.05F}, Role::connector);
+  bench.put_child(3, {0.85F, 0.05F}, Role::connector);
   auto robot = bench.tick();
   PowerState power;
   power.said.relieves = 2;
   power.standings[static_cast<std::size_t>(robot.table().find(2))].leaving = true;
   Vec2 spot;
   ASSERT_TRUE(find_relief_spot(PowerRobot{robot, power, bench.params, no_children}, spot));
-  EXPECT_LT(spot.y, 0.1F);
+  EXPECT_LT(spot.y, 0.05F);
 }
 
 TEST(Power, ASpareThatAReconstructionStopsBetweenTwoRobotsGetsOutOfThere) {
-  const auto motion = [](float off_m, bool powered) {
+  const auto motion = [](float off, bool powered) {
     auto bench = grown<Convoy>();
     bench.state.role = Role::spare;
     bench.state.phase = Phase::start_tree;
-    bench.put(9, {-0.8F, off_m}).role = Role::connector;
-    auto& child = bench.put(2, {0.8F, off_m});
+    bench.put(9, {-0.4F, off}).role = Role::connector;
+    auto& child = bench.put(2, {0.4F, off});
     child.role = Role::connector;
     child.old_parent = 9;
     auto robot = bench.tick();
@@ -701,13 +696,13 @@ TEST(Power, ASpareThatAReconstructionStopsBetweenTwoRobotsGetsOutOfThere) {
     if (powered) robot.power = &me;
     return waiting_motion(robot);
   };
-  EXPECT_LT(motion(0.05F, true).y, -0.1F);
-  EXPECT_EQ(motion(0.05F, false), Vec2{});
-  EXPECT_EQ(motion(0.3F, true), Vec2{}) << "it hides nobody";
+  EXPECT_LT(motion(0.025F, true).y, -0.1F);
+  EXPECT_EQ(motion(0.025F, false), Vec2{});
+  EXPECT_EQ(motion(0.15F, true), Vec2{}) << "it hides nobody";
 }
 
 TEST_F(AboveALeaver, StaysWhereItIsWhileTheTreeIsReconstructed) {
-  bench.move(2, {0.35F, 0.1F});
+  bench.move(2, {0.175F, 0.05F});
   relieved(0.9F);
   const auto motion = [&](Phase phase) {
     bench.state.phase = phase;
@@ -722,7 +717,7 @@ TEST_F(AboveALeaver, StaysWhereItIsWhileTheTreeIsReconstructed) {
 
 TEST(Power, ARootThatHasToLeaveTakesAnyHeirWithMoreChargeOnlyWhenItIsUrgent) {
   auto bench = grown<Convoy>();
-  bench.put(5, {1.0F, 0.0F}).role = Role::connector;
+  bench.put(5, {0.5F, 0.0F}).role = Role::connector;
   auto robot = bench.tick();
   PowerState power;
   PowerRobot me{robot, power, bench.params, no_children};

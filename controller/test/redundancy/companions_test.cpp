@@ -13,21 +13,21 @@
 namespace banyan {
 namespace {
 
-// A spare (id 1) near the chain 9 (root) - 2 - 3 (worker), 1.8 m an edge, whose middle is where the test puts it.
+// A spare (id 1) near the chain 9 (root) - 2 - 3 (worker), 0.9 C an edge, whose middle is where the test puts it.
 class SpareByAChain : public ::testing::Test {
  protected:
   SpareByAChain() {
     bench.params.link_redundancy = 2;
     bench.params.line_of_sight = false;
-    put_chain({0.0F, 1.0F}, {1.0F, 0.0F});
+    put_chain({0.0F, 0.5F}, {1.0F, 0.0F});
   }
   void put_chain(Vec2 middle, Vec2 along) {
-    bench.put(9, middle - along * 1.8F).role = Role::root;
+    bench.put(9, middle - along * 0.9F).role = Role::root;
     auto& connector = bench.put(2, middle);
     connector.role = Role::connector;
     connector.parent = 9;
     connector.child_count = 1;
-    auto& worker = bench.put(3, middle + along * 1.8F);
+    auto& worker = bench.put(3, middle + along * 0.9F);
     worker.role = Role::worker;
     worker.parent = 2;
   }
@@ -53,20 +53,20 @@ TEST_F(SpareByAChain, WithOnePathItIsASpareLikeAnyOther) {
 
 TEST_F(SpareByAChain, IsNotNeededWhereTheNeighboursHearEachOther) {
   bench.params.line_of_sight = false;
-  bench.move(9, {-0.7F, 1.0F});
-  bench.move(3, {0.7F, 1.0F});
+  bench.move(9, {-0.35F, 0.5F});
+  bench.move(3, {0.35F, 0.5F});
   EXPECT_EQ(chosen(), nobody);
 }
 
 TEST_F(SpareByAChain, ALeafNeedsNoneEvenIfItsParentIsNotHeard) {
   bench.silence(9);
   bench.silence(2);
-  bench.move(3, {1.0F, 0.5F});
+  bench.move(3, {0.5F, 0.25F});
   EXPECT_EQ(chosen(), nobody);
 }
 
 TEST_F(SpareByAChain, LeavesItToTheOneThatIsThereOrNearer) {
-  put_spare(7, {0.3F, 1.0F}, 2);
+  put_spare(7, {0.15F, 0.5F}, 2);
   EXPECT_EQ(chosen(), nobody);
   bench.say(7).below = nobody;  // free, and nearer: it will go
   EXPECT_EQ(chosen(), nobody);
@@ -76,11 +76,11 @@ TEST_F(SpareByAChain, LeavesItToTheOneThatIsThereOrNearer) {
 
 TEST_F(SpareByAChain, OfTwoThatChooseAtOnceTheSmallerIdStays) {
   ASSERT_EQ(chosen(), 2);
-  put_spare(7, {0.95F, 1.0F}, 2);
+  put_spare(7, {0.475F, 0.5F}, 2);
   EXPECT_EQ(chosen(), 2);
   bench.silence(7);
   for (int k = 0; k < 10; ++k) chosen();  // until it is forgotten
-  put_spare(0, {0.95F, 1.0F}, 2);
+  put_spare(0, {0.475F, 0.5F}, 2);
   EXPECT_EQ(chosen(), nobody);
   bench.params.link_redundancy = 3;  // there is room for both
   EXPECT_EQ(chosen(), 2);
@@ -88,35 +88,35 @@ TEST_F(SpareByAChain, OfTwoThatChooseAtOnceTheSmallerIdStays) {
 
 TEST_F(SpareByAChain, OfTwoTheOneThatIsThereStaysWhateverItsId) {
   ASSERT_EQ(chosen(), 2);
-  put_spare(0, {1.6F, 1.0F}, 2);
+  put_spare(0, {0.8F, 0.5F}, 2);
   EXPECT_EQ(chosen(), 2);
-  put_spare(7, {0.3F, 1.0F}, 2);
+  put_spare(7, {0.15F, 0.5F}, 2);
   EXPECT_EQ(chosen(), nobody);
 }
 
 TEST_F(SpareByAChain, OneMoreComesAlongWhileTheWorkerTravels) {
-  put_spare(7, {0.3F, 1.0F}, 2);
-  bench.say(2).want_cm = bench.say(3).want_cm = 300;
+  put_spare(7, {0.15F, 0.5F}, 2);
+  bench.say(2).want = bench.say(3).want = 300;
   EXPECT_EQ(chosen(), 2);
   bench.params.line_of_sight = true;  // it would hide edges; but the worker has one, too
   EXPECT_EQ(chosen(), 3);
-  put_spare(6, {1.8F, 0.8F}, 3);
+  put_spare(6, {0.9F, 0.4F}, 3);
   EXPECT_EQ(chosen(), nobody);
   bench.silence(6);
   bench.params.line_of_sight = false;
   EXPECT_EQ(chosen(), 2);
-  bench.say(2).want_cm = bench.say(3).want_cm = 0;
+  bench.say(2).want = bench.say(3).want = 0;
   EXPECT_EQ(chosen(), nobody);  // the nearer one is enough
 }
 
 // The body between two robots that are near to each other stays where it is, even if it dies.
 TEST_F(SpareByAChain, WithSightItIsNeededWhereARobotHidesItsNeighbours) {
   bench.params.line_of_sight = true;
-  bench.say(2).want_cm = 300;
-  bench.move(9, {-0.3F, 1.0F});
-  bench.move(3, {0.3F, 1.0F});
+  bench.say(2).want = 300;
+  bench.move(9, {-0.15F, 0.5F});
+  bench.move(3, {0.15F, 0.5F});
   EXPECT_EQ(chosen(), 2);
-  bench.move(2, {0.0F, 1.3F});  // out of their line
+  bench.move(2, {0.0F, 0.65F});  // out of their line
   EXPECT_EQ(chosen(), nobody);
 }
 
@@ -125,8 +125,8 @@ TEST_F(SpareByAChain, FollowsOnlyAWorkerThatLeadsABranch) {
   bench.params.line_of_sight = true;
   bench.silence(9);
   bench.silence(2);
-  bench.move(3, {1.0F, 0.5F});
-  bench.say(3).want_cm = 300;
+  bench.move(3, {0.5F, 0.25F});
+  bench.say(3).want = 300;
   EXPECT_EQ(chosen(), 3);
   bench.say(3).parent = nobody;
   EXPECT_EQ(chosen(), nobody);
@@ -148,7 +148,7 @@ TEST_F(SpareByAChain, MovesOutwardsToFillAGap) {
   worker.child_count = 1;
   EXPECT_EQ(chosen(), 2);
   worker.request = 3;
-  put_spare(7, {1.0F, 0.6F}, nobody);
+  put_spare(7, {0.5F, 0.3F}, nobody);
   EXPECT_EQ(chosen(), 2);
   bench.silence(7);
   for (int k = 0; k < 20; ++k) {
@@ -162,7 +162,7 @@ TEST_F(SpareByAChain, StaysForAWhileWhenItsRobotHasDied) {
   bench.params.line_of_sight = false;
   ASSERT_EQ(chosen(), 2);
   bench.silence(2);
-  const int dead_after = bench.params.ticks(bench.params.liveness_period_s);
+  const int dead_after = whole(bench.params.liveness_rounds);
   for (int k = 0; k < 3 * dead_after; ++k) ASSERT_EQ(chosen(), 2) << k;
   chosen();
   EXPECT_EQ(chosen(), nobody);
@@ -175,8 +175,8 @@ TEST_F(SpareByAChain, GoesToTheSideFromWhichItHearsTheOneThatIsOutOfReach) {
     auto robot = bench.tick();
     return companion_motion(robot, robot.table().find(2));
   };
-  bench.move(9, {1.8F, -0.3F});
-  bench.move(2, {0.0F, -0.3F});
+  bench.move(9, {0.9F, -0.15F});
+  bench.move(2, {0.0F, -0.15F});
   bench.silence(3);
   bench.say(2).child_count = 1;
   for (int k = 0; k < 20; ++k) way();  // until it is forgotten
@@ -191,13 +191,13 @@ TEST_F(SpareByAChain, NearEdgesOnlyWithSight) {
   auto robot = bench.tick();
   const int near = robot.table().find(2);
   bench.params.line_of_sight = false;
-  EXPECT_EQ(companion_way_m(robot, near), 0.0F);
+  EXPECT_EQ(companion_width(robot, near), 0.0F);
   bench.params.line_of_sight = true;
-  const float under_way_m = companion_way_m(robot, near);
-  bench.move(2, {0.3F, 0.0F});
+  const float under_way = companion_width(robot, near);
+  bench.move(2, {0.15F, 0.0F});
   auto there = bench.tick();
-  EXPECT_GT(companion_way_m(there, there.table().find(2)), bench.params.clearance_m);
-  EXPECT_LT(companion_way_m(there, there.table().find(2)), under_way_m);
+  EXPECT_GT(companion_width(there, there.table().find(2)), bench.params.clearance);
+  EXPECT_LT(companion_width(there, there.table().find(2)), under_way);
 }
 
 TEST_F(SpareByAChain, JoinsAnEdgeOnlyIfThatHasBegunToCall) {
@@ -220,7 +220,7 @@ TEST_F(SpareByAChain, JoinsAnEdgeOnlyIfThatHasBegunToCall) {
 // neighbours of its robot, beside it, and not upon the line between any two.
 RC_GTEST_FIXTURE_PROP(SpareByAChain, ItsPlaceHearsWhatItsRobotHears, ()) {
   const float angle = static_cast<float>(*rc::gen::inRange(0, 628)) / 100.0F;
-  const float far = static_cast<float>(*rc::gen::inRange(30, 100)) / 100.0F;
+  const float far = static_cast<float>(*rc::gen::inRange(30, 100)) / 200.0F;
   bench.params.line_of_sight = *rc::gen::arbitrary<bool>();
   const Vec2 along = unit_vector(angle);
   Vec2 middle = unit_vector(0.7F * angle + 1.0F) * far;
@@ -229,34 +229,33 @@ RC_GTEST_FIXTURE_PROP(SpareByAChain, ItsPlaceHearsWhatItsRobotHears, ()) {
     put_chain(middle, along);
     auto robot = bench.tick();
     middle -= clamped(companion_motion(robot, robot.table().find(2)), 1.0F) *
-              0.02F;  // it moves, seen from itself the chain does
+              0.01F;  // it moves, seen from itself the chain does
   }
-  const float c = bench.params.communication_range_m;
-  RC_ASSERT(norm(middle - along * 1.8F) < 0.97F * c);
-  RC_ASSERT(norm(middle + along * 1.8F) < 0.97F * c);
-  RC_ASSERT(norm(middle) > 0.2F);
-  RC_ASSERT(std::fabs(cross(along, middle)) > bench.params.clearance_m);
+  RC_ASSERT(norm(middle - along * 0.9F) < 0.97F);
+  RC_ASSERT(norm(middle + along * 0.9F) < 0.97F);
+  RC_ASSERT(norm(middle) > 0.1F);
+  RC_ASSERT(std::fabs(cross(along, middle)) > bench.params.clearance);
 }
 
 // While branches change their parents nobody may be below the root for a tick.
 TEST(CompanionsOfATree, ItIsNotReconstructedOnceItHasArrived) {
-  const auto is_reconstructed = [](int paths, int settled_s, bool with_worker) {
+  const auto is_reconstructed = [](int paths, int settled_ticks, bool with_worker) {
     ConvoyBench bench = grown<Convoy>();
     bench.params.link_redundancy = paths;
     bench.state.root = {1, 1};
     bench.state.role = Role::root;
     bench.state.phase_ticks = bench.state.stalled_ticks = 1000;
-    bench.state.settled_ticks = static_cast<std::uint16_t>(bench.params.ticks(static_cast<float>(settled_s)));
+    bench.state.settled_ticks = static_cast<std::uint16_t>(settled_ticks);
     bench.state.subtree_workers = with_worker ? 1 : 0;
-    bench.put_child(2, {1.0F, 0.0F}, Role::connector).subtree_workers = with_worker ? 1 : 0;
+    bench.put_child(2, {0.5F, 0.0F}, Role::connector).subtree_workers = with_worker ? 1 : 0;
     bench.step();
     return bench.state.phase != Phase::grow_tree;
   };
-  EXPECT_FALSE(is_reconstructed(2, 10, true));
-  EXPECT_FALSE(is_reconstructed(2, 10, false));
-  EXPECT_FALSE(is_reconstructed(2, 3, true));
-  EXPECT_TRUE(is_reconstructed(2, 3, false)) << "the workers have been missed for long";
-  EXPECT_TRUE(is_reconstructed(1, 10, true));
+  EXPECT_FALSE(is_reconstructed(2, 100, true));
+  EXPECT_FALSE(is_reconstructed(2, 100, false));
+  EXPECT_FALSE(is_reconstructed(2, 30, true));
+  EXPECT_TRUE(is_reconstructed(2, 30, false)) << "the workers have been missed for long";
+  EXPECT_TRUE(is_reconstructed(1, 100, true));
 }
 
 // A connector (id 1) between 2 and 3.
@@ -266,8 +265,8 @@ class ConnectorAlone : public ::testing::Test {
     bench.params.link_redundancy = 2;
     bench.state.role = Role::connector;
     bench.state.parent = 2;
-    bench.put(2, {-1.7F, 0.0F}).role = Role::root;
-    bench.put_child(3, {1.7F, 0.0F}, Role::worker);
+    bench.put(2, {-0.85F, 0.0F}).role = Role::root;
+    bench.put_child(3, {0.85F, 0.0F}, Role::worker);
   }
   std::uint8_t hops_after(int ticks) {
     for (int k = 0; k < ticks; ++k) {
@@ -281,10 +280,10 @@ class ConnectorAlone : public ::testing::Test {
 };
 
 TEST_F(ConnectorAlone, CallsAfterAWhile) {
-  const int patience = bench.params.ticks(bench.params.call_after_s);
+  const int patience = whole(bench.params.call_after_rounds);
   EXPECT_EQ(hops_after(patience), nobody_calls);
   EXPECT_EQ(hops_after(1), companion_call);
-  bench.put(7, {0.3F, 0.3F}).below = 1;
+  bench.put(7, {0.15F, 0.15F}).below = 1;
   EXPECT_EQ(hops_after(1), nobody_calls);
 }
 
@@ -297,7 +296,7 @@ TEST_F(ConnectorAlone, SaysThatItLacksOne) {
   EXPECT_EQ(bench.state.request, 1);
   EXPECT_EQ(bench.step().message.request, 1);
   bench.state.request = nobody;  // as at each step
-  bench.put(7, {0.3F, 0.3F}).below = 1;
+  bench.put(7, {0.15F, 0.15F}).below = 1;
   hops_after(1);
   EXPECT_EQ(bench.state.request, nobody);
 }
@@ -305,17 +304,17 @@ TEST_F(ConnectorAlone, SaysThatItLacksOne) {
 // Once its branch has arrived, it says so as long as it needs one, whether it has one or not: spares go by that alone.
 TEST_F(ConnectorAlone, WithSightSaysThatItNeedsOne) {
   bench.params.line_of_sight = true;
-  bench.put(7, {0.3F, 0.3F}).below = 1;
-  const auto says = [&](float want_m) {
+  bench.put(7, {0.15F, 0.15F}).below = 1;
+  const auto says = [&](float want) {
     bench.state.request = nobody;
-    bench.state.want_m = want_m;
+    bench.state.want = want;
     hops_after(1);
     return bench.state.request == 1;
   };
   EXPECT_TRUE(says(0.0F));
-  EXPECT_FALSE(says(3.0F));
-  bench.move(2, {-0.9F, 0.3F});
-  bench.move(3, {0.9F, 0.3F});
+  EXPECT_FALSE(says(1.5F));
+  bench.move(2, {-0.45F, 0.15F});
+  bench.move(3, {0.45F, 0.15F});
   EXPECT_FALSE(says(0.0F));  // they hear each other
 }
 
@@ -327,20 +326,20 @@ TEST_F(ConnectorAlone, StepsAsideOnceItIsSuperfluous) {
   const auto way = [&] {
     auto robot = bench.tick();
     bench.state.subtree_workers = 1;
-    bench.state.want_m = 0.0F;
+    bench.state.want = 0.0F;
     robot.useful_children = 1;
     Vec2 out;
     return steps_aside(robot, out) ? out : Vec2{};
   };
   EXPECT_EQ(way(), Vec2{});  // too far from each other
-  bench.move(2, {-0.7F, 0.05F});
-  bench.move(3, {0.6F, 0.05F});
+  bench.move(2, {-0.35F, 0.025F});
+  bench.move(3, {0.3F, 0.025F});
   EXPECT_LT(way().y, -0.5F);
-  bench.move(2, {-0.7F, 0.3F});
-  bench.move(3, {0.6F, 0.3F});
+  bench.move(2, {-0.35F, 0.15F});
+  bench.move(3, {0.3F, 0.15F});
   EXPECT_EQ(way(), Vec2{});  // it is aside
-  bench.move(2, {-0.7F, 0.05F});
-  bench.move(3, {0.6F, 0.05F});
+  bench.move(2, {-0.35F, 0.025F});
+  bench.move(3, {0.3F, 0.025F});
   bench.params.link_redundancy = 1;
   EXPECT_EQ(way(), Vec2{});
 }
@@ -351,24 +350,24 @@ TEST_F(ConnectorAlone, WithThriftStepsAsideToBeReleased) {
   bench.params.link_redundancy = 1;
   bench.say(2).subtree_workers = 1;
   bench.say(3).subtree_workers = 1;
-  const float reach_m = 1.888F;  // merge_distance with thrift 1
+  const float reach = 0.944F;  // merge_distance with thrift 1
   for (const bool sight : {false, true}) {
     bench.params.line_of_sight = sight;
-    const auto steps_from = [&](float apart_m, float thrift, float aside_m) {
+    const auto steps_from = [&](float apart, float thrift, float aside) {
       bench.params.thrift = thrift;
-      bench.move(2, {-0.2F, aside_m});
-      bench.move(3, {apart_m - 0.2F, aside_m});
+      bench.move(2, {-0.1F, aside});
+      bench.move(3, {apart - 0.1F, aside});
       auto robot = bench.tick();
       bench.state.subtree_workers = 1;
-      bench.state.want_m = 0.0F;
+      bench.state.want = 0.0F;
       robot.useful_children = 1;
       Vec2 out;
       return steps_aside(robot, out) && out.y < -0.5F;
     };
-    EXPECT_TRUE(steps_from(reach_m - 0.01F, 1.0F, 0.02F)) << sight;
-    EXPECT_FALSE(steps_from(reach_m + 0.01F, 1.0F, 0.02F)) << "too far from each other";
-    EXPECT_FALSE(steps_from(reach_m - 0.01F, 1.0F, 0.3F)) << "it is aside";
-    EXPECT_FALSE(steps_from(reach_m - 0.01F, 0.0F, 0.02F)) << "without thrift";
+    EXPECT_TRUE(steps_from(reach - 0.005F, 1.0F, 0.01F)) << sight;
+    EXPECT_FALSE(steps_from(reach + 0.005F, 1.0F, 0.01F)) << "too far from each other";
+    EXPECT_FALSE(steps_from(reach - 0.005F, 1.0F, 0.15F)) << "it is aside";
+    EXPECT_FALSE(steps_from(reach - 0.005F, 0.0F, 0.01F)) << "without thrift";
   }
 }
 
@@ -377,7 +376,7 @@ TEST_F(ConnectorAlone, WithSightHeedsOnlyCallsThatItHasJustHeard) {
   const auto hops_after_silence = [&](int paths, bool sight) {
     bench.params.link_redundancy = paths;
     bench.params.line_of_sight = sight;
-    bench.put(7, {0.3F, 0.6F}).call_hops = 5;
+    bench.put(7, {0.15F, 0.3F}).call_hops = 5;
     EXPECT_EQ(bench.step().message.call_hops, 6);
     bench.silence(7);
     EXPECT_EQ(bench.step().message.call_hops, 6);

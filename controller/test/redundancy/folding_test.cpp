@@ -23,32 +23,32 @@ class Folding : public ::testing::Test {
     bench.state.role = Role::connector;
     bench.state.parent = 2;
     bench.state.subtree_workers = 1;
-    auto& parent = bench.put(2, {0.9F, 0.0F});
+    auto& parent = bench.put(2, {0.45F, 0.0F});
     parent.role = Role::connector;
     parent.parent = 9;
     parent.subtree_workers = 1;
-    auto& child = bench.put_child(3, {-0.9F, 0.0F}, Role::worker);
+    auto& child = bench.put_child(3, {-0.45F, 0.0F}, Role::worker);
     child.subtree_workers = 1;
     child.need = parent.need = Need::no_need;
-    bench.put(9, {1.7F, 0.5F}).role = Role::root;
+    bench.put(9, {0.85F, 0.25F}).role = Role::root;
   }
   bool wants() {
     auto robot = bench.tick();
-    robot.self.want_m = want_m;
+    robot.self.want = want;
     return wants_fold(robot);
   }
   Vec2 motion() { return folding_motion(bench.tick()); }
-  float want_m = 0.0F;
+  float want = 0.0F;
   ConvoyBench bench = grown<Convoy>();
 };
 
 TEST_F(Folding, AnEdgeLongerThanAKthOfALinkWantsASpare) {
-  const float link_m = 0.96F * bench.params.communication_range_m;
+  const float link = 0.96F;
   for (const int paths : {2, 3}) {
     bench.params.link_redundancy = paths;
-    bench.move(2, {link_m / static_cast<float>(paths) - 0.01F, 0.0F});
+    bench.move(2, {link / static_cast<float>(paths) - 0.005F, 0.0F});
     EXPECT_FALSE(wants()) << paths;
-    bench.move(2, {link_m / static_cast<float>(paths) + 0.01F, 0.0F});
+    bench.move(2, {link / static_cast<float>(paths) + 0.005F, 0.0F});
     EXPECT_TRUE(wants()) << paths;
   }
 }
@@ -61,10 +61,10 @@ TEST_F(Folding, AHiddenEdgeWantsASpareToo) {
 }
 
 TEST_F(Folding, ALongEdgeAsksForASpare) {
-  bench.move(2, {0.9F, 0.0F});
+  bench.move(2, {0.45F, 0.0F});
   bench.steps(3);
   EXPECT_EQ(bench.state.need, Need::no_need);
-  bench.move(2, {1.2F, 0.0F});
+  bench.move(2, {0.6F, 0.0F});
   bench.steps(3);
   EXPECT_EQ(bench.state.need, Need::need);
 }
@@ -77,8 +77,8 @@ TEST_F(Folding, AChosenSpareJoinsNearTheMiddle) {
     bench.state.epoch = bench.say(2).epoch;
     bench.state.request = 3;
     bench.state.spare_state = SpareState::extend_edge;
-    bench.put_connector(2, {0.8F - along, 0.25F}, 100, 60).parent = 9;
-    auto& owner = bench.put_connector(3, {-0.8F - along, 0.25F}, 200, 50);
+    bench.put_connector(2, {0.4F - along, 0.125F}, 100, 60).parent = 9;
+    auto& owner = bench.put_connector(3, {-0.4F - along, 0.125F}, 200, 50);
     owner.parent = 2;
     owner.need = Need::await;
     owner.grant = 1;
@@ -90,7 +90,7 @@ TEST_F(Folding, AChosenSpareJoinsNearTheMiddle) {
 }
 
 TEST_F(Folding, OnlyWhereRobotsHideOthersAndAreNotMissed) {
-  bench.move(2, {1.5F, 0.0F});
+  bench.move(2, {0.75F, 0.0F});
   ASSERT_TRUE(wants());
   const auto wants_if = [&, params = bench.params, state = bench.state](auto make_otherwise) {
     bench.params = params;
@@ -105,7 +105,7 @@ TEST_F(Folding, OnlyWhereRobotsHideOthersAndAreNotMissed) {
   EXPECT_FALSE(wants_if([&] { bench.state.too_few_to_fold = true; }));
   EXPECT_FALSE(wants_if([&] { bench.state.call_hops = 5; })) << "an edge in need calls";
   EXPECT_TRUE(wants_if([&] { bench.state.call_hops = companion_call; }));
-  want_m = 1.0F;
+  want = 0.5F;
   EXPECT_FALSE(wants_if([] {})) << "it still travels";
 }
 
@@ -113,34 +113,34 @@ TEST_F(Folding, OnlyWhereRobotsHideOthersAndAreNotMissed) {
 RC_GTEST_FIXTURE_PROP(Folding, ASpareJoinsWhereBothEdgesGetShort, ()) {
   bench.state.role = Role::spare;
   bench.state.parent = nobody;
-  const float edge_m = static_cast<float>(*rc::gen::inRange(100, 190)) * 0.01F;
-  const float along = static_cast<float>(*rc::gen::inRange(-100, 100)) * 0.01F;
-  const float aside = static_cast<float>(*rc::gen::inRange(0, 40)) * 0.01F;
-  bench.move(2, {0.5F * edge_m - along, aside});
-  bench.move(3, {-0.5F * edge_m - along, aside});
+  const float edge = static_cast<float>(*rc::gen::inRange(100, 190)) * 0.005F;
+  const float along = static_cast<float>(*rc::gen::inRange(-100, 100)) * 0.005F;
+  const float aside = static_cast<float>(*rc::gen::inRange(0, 40)) * 0.005F;
+  bench.move(2, {0.5F * edge - along, aside});
+  bench.move(3, {-0.5F * edge - along, aside});
   bench.say(3).parent = 2;
   auto robot = bench.tick();
   const bool off = is_off_middle(robot, robot.table().find(3), robot.table().find(2));
-  const float longer_m = std::max(norm(Vec2{0.5F * edge_m - along, aside}), norm(Vec2{-0.5F * edge_m - along, aside}));
-  RC_ASSERT(off == (longer_m > 0.5F * bench.params.communication_range_m));
-  bench.say(3).want_cm = 100;  // an edge in need of a branch that travels is joined wherever both ends are in reach
+  const float longer = std::max(norm(Vec2{0.5F * edge - along, aside}), norm(Vec2{-0.5F * edge - along, aside}));
+  RC_ASSERT(off == (longer > 0.5F));
+  bench.say(3).want = 128;  // an edge in need of a branch that travels is joined wherever both ends are in reach
   auto travels = bench.tick();
   RC_ASSERT(!is_off_middle(travels, travels.table().find(3), travels.table().find(2)));
 }
 
 TEST_F(Folding, LongEdgesDrawThoseToChildrenSooner) {
   EXPECT_LT(motion().x, -0.1F);
-  bench.move(2, {1.6F, 0.0F});
+  bench.move(2, {0.8F, 0.0F});
   bench.say(9).role = Role::spare;
   EXPECT_GT(motion().x, 0.1F);  // but it does not leave its parent for that
-  bench.move(2, {0.8F, 0.0F});
-  bench.move(3, {-0.8F, 0.0F});
+  bench.move(2, {0.4F, 0.0F});
+  bench.move(3, {-0.4F, 0.0F});
   EXPECT_NEAR(norm(motion()), 0.0F, 1e-3F);
 }
 
 TEST_F(Folding, MovesSidewaysUntilItHearsItsGrandparent) {
-  bench.move(2, {0.8F, 0.0F});
-  bench.move(3, {-0.8F, 0.0F});
+  bench.move(2, {0.4F, 0.0F});
+  bench.move(3, {-0.4F, 0.0F});
   EXPECT_EQ(motion(), Vec2{});
   bench.silence(9);
   for (int k = 0; k < 10; ++k) motion();
@@ -155,17 +155,17 @@ TEST_F(Folding, MovesSidewaysUntilItHearsItsGrandparent) {
 
 TEST_F(Folding, WithThreePathsTheGrandparentsParentToo) {
   bench.params.link_redundancy = 3;
-  bench.move(2, {0.5F, 0.0F});
-  bench.move(3, {-0.5F, 0.0F});
+  bench.move(2, {0.25F, 0.0F});
+  bench.move(3, {-0.25F, 0.0F});
   bench.say(9).role = Role::connector;
   bench.say(9).parent = 10;
-  bench.put(10, {1.6F, 0.0F}).role = Role::root;
+  bench.put(10, {0.8F, 0.0F}).role = Role::root;
   EXPECT_EQ(motion(), Vec2{});
   bench.silence(10);
   for (int k = 0; k < 10; ++k) motion();
   EXPECT_NEAR(std::abs(motion().y), 0.17F, 0.01F) << "slower than for the grandparent";
   bench.params.link_redundancy = 2;
-  bench.move(2, {0.8F, 0.0F});
+  bench.move(2, {0.4F, 0.0F});
   EXPECT_NEAR(motion().y, 0.0F, 1e-3F) << "two paths do not need it";
 }
 
@@ -185,22 +185,22 @@ class BetweenFolds : public ::testing::Test {
     auto& c = bench.put(3, near - me);
     c.role = Role::worker;
     c.parent = 2;
-    return clear_folds(bench.tick(), 0.32F);
+    return clear_folds(bench.tick(), 0.16F);
   }
-  Vec2 near{-0.8F, 0.0F}, middle{0.0F, 0.4F}, far{0.8F, 0.0F};
+  Vec2 near{-0.4F, 0.0F}, middle{0.0F, 0.2F}, far{0.4F, 0.0F};
   ConvoyBench bench = grown<Convoy>();
 };
 
 TEST_F(BetweenFolds, IsPushedAwayFromTheMiddleOne) {
-  EXPECT_LT(push({0.1F, -0.1F}).y, -0.1F);
-  EXPECT_EQ(push({0.1F, -0.4F}), Vec2{});  // far enough
-  EXPECT_EQ(push({0.1F, 0.6F}), Vec2{});   // beyond the edges: those push it
-  EXPECT_EQ(push({1.2F, -0.1F}), Vec2{});  // beside the line
-  EXPECT_LT(norm(push({0.1F, -0.25F})), norm(push({0.1F, -0.05F})));
+  EXPECT_LT(push({0.05F, -0.05F}).y, -0.1F);
+  EXPECT_EQ(push({0.05F, -0.2F}), Vec2{});  // far enough
+  EXPECT_EQ(push({0.05F, 0.3F}), Vec2{});   // beyond the edges: those push it
+  EXPECT_EQ(push({0.6F, -0.05F}), Vec2{});  // beside the line
+  EXPECT_LT(norm(push({0.05F, -0.125F})), norm(push({0.05F, -0.025F})));
 }
 
 TEST_F(BetweenFolds, ASpareThatWaitsMakesWay) {
-  push({0.1F, -0.12F});
+  push({0.05F, -0.06F});
   const float folded = waiting_motion(bench.tick()).y;
   bench.params.link_redundancy = 1;
   EXPECT_LT(folded, waiting_motion(bench.tick()).y - 0.1F);
@@ -208,13 +208,13 @@ TEST_F(BetweenFolds, ASpareThatWaitsMakesWay) {
 
 TEST_F(BetweenFolds, OnlyWhereABranchFolds) {
   bench.params.line_of_sight = false;
-  EXPECT_EQ(push({0.1F, -0.1F}), Vec2{});
+  EXPECT_EQ(push({0.05F, -0.05F}), Vec2{});
   bench.params.line_of_sight = true;
   bench.params.link_redundancy = 1;
-  EXPECT_EQ(push({0.1F, -0.1F}), Vec2{});
+  EXPECT_EQ(push({0.05F, -0.05F}), Vec2{});
   bench.params.link_redundancy = 2;
-  far = {1.3F, 0.0F};
-  EXPECT_EQ(push({0.1F, -0.1F}), Vec2{});  // those two cannot hear each other anyhow
+  far = {0.65F, 0.0F};
+  EXPECT_EQ(push({0.05F, -0.05F}), Vec2{});  // those two cannot hear each other anyhow
 }
 
 // From anywhere in the triangle the way leads out through the line between the two, whichever side it is on.
@@ -226,9 +226,9 @@ RC_GTEST_FIXTURE_PROP(BetweenFolds, LeavesTheTriangleThroughTheLine, ()) {
   const float b = static_cast<float>(*rc::gen::inRange(5, 95)) * 0.01F * (1.0F - a);
   Vec2 me = near * (1.0F - a - b) + middle * a + far * b;
   for (Vec2* at : {&near, &middle, &far, &me}) *at = rotate(turn, *at);
-  for (int k = 0; k < 60; ++k) me += clamped(push(me), 1.0F) * 0.02F;
+  for (int k = 0; k < 60; ++k) me += clamped(push(me), 1.0F) * 0.01F;
   RC_ASSERT(cross(far - near, me - near) * side < 0.0F);
-  RC_ASSERT(norm(nearest_on_segment(near - me, far - me)) > 0.15F);
+  RC_ASSERT(norm(nearest_on_segment(near - me, far - me)) > 0.075F);
 }
 
 }  // namespace

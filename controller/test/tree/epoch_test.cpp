@@ -13,15 +13,15 @@ namespace banyan {
 namespace {
 
 RC_GTEST_PROP(Listen, TheLargestIsAdoptedAndNothingEverFallsBack, ()) {
-  Bench bench;
+  ConvoyBench bench;
   for (int t = 0; t < 30; ++t) {
-    auto& m = bench.put(static_cast<RobotId>(*rc::gen::inRange(2, 8)), {1.0F, 0.5F});
+    auto& m = bench.put(static_cast<RobotId>(*rc::gen::inRange(2, 8)), {0.5F, 0.25F});
     m.epoch = *rc::gen::inRange<std::uint16_t>(0, 5);
     m.phase = static_cast<Phase>(*rc::gen::inRange(0, 5));
     m.root = {*rc::gen::inRange<std::uint16_t>(0, 5), *rc::gen::inRange<std::uint16_t>(2, 9)};
     const auto before = bench.state;
     bench.step();
-    const HealingState& now = bench.state;
+    const ConvoyState& now = bench.state;
     RC_ASSERT(now.epoch > before.epoch || (now.epoch == before.epoch && now.phase >= before.phase));
     RC_ASSERT(!newer(before.root, now.root));
     RC_ASSERT(now.epoch > m.epoch || (now.epoch == m.epoch && now.phase >= m.phase));
@@ -30,9 +30,9 @@ RC_GTEST_PROP(Listen, TheLargestIsAdoptedAndNothingEverFallsBack, ()) {
 }
 
 TEST(Epoch, ANewOneMakesTheParentTheOldParentAndForgets) {
-  Bench bench = grown();
+  ConvoyBench bench = grown();
   bench.state.parent = 5;
-  bench.state.label_cm = 77;
+  bench.state.label = 77;
   bench.state.seqno = 12;
   bench.state.need = Need::await;
   bench.state.grant = 30;
@@ -40,7 +40,7 @@ TEST(Epoch, ANewOneMakesTheParentTheOldParentAndForgets) {
   enter(robot, 2, Phase::start_tree);
   EXPECT_EQ(bench.state.old_parent, 5);
   EXPECT_EQ(bench.state.parent, nobody);
-  EXPECT_EQ(bench.state.label_cm, unknown_label);
+  EXPECT_EQ(bench.state.label, unknown_label);
   EXPECT_EQ(bench.state.seqno, 0);
   EXPECT_EQ(bench.state.grant, nobody);
   EXPECT_EQ(bench.state.need, Need::no_need);
@@ -49,7 +49,7 @@ TEST(Epoch, ANewOneMakesTheParentTheOldParentAndForgets) {
 }
 
 TEST(Epoch, GrowTreeDropsTheOldParentOfWhoHasANewOne) {
-  Bench bench = grown();
+  ConvoyBench bench = grown();
   bench.state.phase = Phase::select_parent;
   bench.state.role = Role::connector;
   bench.state.old_parent = 5;
@@ -58,7 +58,7 @@ TEST(Epoch, GrowTreeDropsTheOldParentOfWhoHasANewOne) {
   enter(robot, 1, Phase::grow_tree);
   EXPECT_EQ(bench.state.old_parent, nobody);
 
-  Bench lone = grown();
+  ConvoyBench lone = grown();
   lone.state.phase = Phase::select_parent;
   lone.state.role = Role::connector;
   lone.state.old_parent = 5;
@@ -68,7 +68,7 @@ TEST(Epoch, GrowTreeDropsTheOldParentOfWhoHasANewOne) {
 }
 
 TEST(Barriers, ALoneRootPassesThemAllAndComesBack) {
-  Bench bench;
+  ConvoyBench bench;
   bench.state.root = {1, 1};
   bench.state.role = Role::root;
   std::vector<Phase> seen;
@@ -79,28 +79,29 @@ TEST(Barriers, ALoneRootPassesThemAllAndComesBack) {
     grow_ticks += bench.state.epoch == 1 && bench.state.phase == Phase::grow_tree ? 1 : 0;
     ASSERT_LT(seen.size(), 8U);
   }
-  EXPECT_EQ(grow_ticks, bench.params.ticks(bench.params.reconfiguration_period_s));
+  EXPECT_EQ(grow_ticks, bench.params.rounds(bench.params.reconfiguration_drives));
   seen.resize(3);
   EXPECT_EQ(seen, (std::vector<Phase>{Phase::start_tree, Phase::select_parent, Phase::grow_tree}));
 }
 
 TEST(Barriers, WaitWhileTheFloodStillFindsRobotsAndAsLongForTheirParents) {
-  Bench bench;
+  ConvoyBench bench;
   bench.state.root = {1, 1};
   bench.step();
-  bench.put(5, {1.0F, 0});  // never takes a label
-  auto& m = bench.put(6, {0, 1.0F});
-  m.label_cm = 100;
+  bench.put(5, {0.5F, 0});  // never takes a label
+  auto& m = bench.put(6, {0, 0.5F});
+  m.label = 100;
   m.flood_parent = 1;
-  const int timeout = bench.params.ticks(bench.params.barrier_timeout_s);
+  const int timeout = whole(bench.params.barrier_rounds);
   for (int k = 0; k < 8; ++k) {
-    ++bench.say(6).flood_robots;  // one of a long chain after the other
+    ++bench.say(6).flood_robots;  // one of a long chain after the other, workers all
+    ++bench.say(6).flood_workers;
     bench.steps(timeout / 2);
     EXPECT_EQ(bench.state.phase, Phase::start_tree);
   }
   bench.steps(timeout);
   EXPECT_EQ(bench.state.phase, Phase::select_parent);
-  bench.state.flood_robots = 99;  // who never arrive
+  bench.state.flood_workers = 99;  // who never arrive
   bench.steps(3 * timeout);
   EXPECT_EQ(bench.state.phase, Phase::select_parent);
   bench.steps(timeout);
@@ -108,17 +109,19 @@ TEST(Barriers, WaitWhileTheFloodStillFindsRobotsAndAsLongForTheirParents) {
 }
 
 TEST(Barriers, NeverWaitLongerThanTheTimeout) {
-  Bench bench;
+  ConvoyBench bench;
   bench.state.root = {1, 1};
   bench.step();
-  bench.put(5, {1.0F, 0});  // never takes a label
-  const int timeout = bench.params.ticks(bench.params.barrier_timeout_s);
+  bench.put(5, {0.5F, 0});  // never takes a label
+  const int timeout = whole(bench.params.barrier_rounds);
   bench.steps(timeout - 1);
   EXPECT_EQ(bench.state.phase, Phase::start_tree);
   bench.steps(2);
   EXPECT_EQ(bench.state.phase, Phase::select_parent);
-  bench.state.flood_robots = 99;  // who never arrive
-  bench.steps(timeout + 1);
+  bench.state.flood_workers = 99;  // who never arrive
+  bench.steps(timeout - 1);
+  EXPECT_EQ(bench.state.phase, Phase::select_parent);
+  bench.steps(2);
   EXPECT_EQ(bench.state.phase, Phase::grow_tree);
 }
 

@@ -9,8 +9,8 @@
 namespace banyan {
 namespace {
 
-Bench starting() {
-  Bench bench;
+ConvoyBench starting() {
+  ConvoyBench bench;
   bench.state.epoch = 1;
   bench.state.phase = Phase::start_tree;
   bench.state.root = {1, 9};
@@ -18,62 +18,63 @@ Bench starting() {
 }
 
 TEST(Label, IsTheSmallestSumOfLabelAndRangeAndTakenOnce) {
-  Bench bench = starting();
-  bench.put(9, {1.8F, 0}).label_cm = 0;    // 180
-  bench.put(5, {0.5F, 0}).label_cm = 100;  // 150
-  bench.put(6, {0.1F, 0}).label_cm = 190;  // 200
-  bench.put(7, {0.1F, 0.1F});              // no label yet
+  ConvoyBench bench = starting();
+  bench.put(9, {0.9F, 0}).label = 0;     // 230
+  bench.put(5, {0.25F, 0}).label = 128;  // 192
+  bench.put(6, {0.05F, 0}).label = 243;  // 256
+  bench.put(7, {0.05F, 0.05F});          // no label yet
   bench.step();
-  EXPECT_EQ(bench.state.label_cm, unknown_label) << "nearer ones may still speak up";
+  EXPECT_EQ(bench.state.label, unknown_label) << "nearer ones may still speak up";
   bench.steps(2);
-  EXPECT_EQ(bench.state.label_cm, 150);
+  EXPECT_EQ(bench.state.label, 192);
   EXPECT_EQ(bench.state.flood_parent, 5);
-  bench.say(5).label_cm = 10;
+  bench.say(5).label = 10;
   bench.steps(5);
-  EXPECT_EQ(bench.state.label_cm, 150) << "fixed for the epoch";
+  EXPECT_EQ(bench.state.label, 192) << "fixed for the epoch";
 }
 
 TEST(Label, WaitsLongerWhenAllAreFar) {
-  Bench bench = starting();
-  bench.put(9, {1.9F, 0}).label_cm = 0;
+  ConvoyBench bench = starting();
+  bench.put(9, {0.95F, 0}).label = 0;
+  bench.put(5, {0.4F, 0.1F});  // no label yet
   bench.steps(6);
-  EXPECT_EQ(bench.state.label_cm, unknown_label);
+  EXPECT_EQ(bench.state.label, unknown_label);
   bench.step();
-  EXPECT_EQ(bench.state.label_cm, 190);
+  EXPECT_EQ(bench.state.label, 243);
 }
 
 // Along a line nobody stands between: the flood need not rest at each hop.
 TEST(Label, WhoIsNotPatientWaitsOnlyForWhomItHears) {
-  const auto ticks_until_labelled = [](Vec2 other, float labelled_m) {
-    Bench bench = starting();
-    bench.put(9, {labelled_m, 0}).label_cm = 0;
+  const auto ticks_until_labelled = [](Vec2 other, float labelled) {
+    ConvoyBench bench = starting();
+    bench.put(9, {labelled, 0}).label = 0;
     bench.put(5, other);
     for (int ticks = 1;; ++ticks) {
       auto robot = bench.tick();
       update_label(robot, {.waits_for_anybody = false});
-      if (bench.state.label_cm != unknown_label) return ticks;
+      if (bench.state.label != unknown_label) return ticks;
     }
   };
-  EXPECT_EQ(ticks_until_labelled({-1.0F, 0}, 1.0F), 1) << "on the other side";
-  EXPECT_EQ(ticks_until_labelled({1.4F, 0}, 1.0F), 1) << "farther than the one that has a label";
-  EXPECT_EQ(ticks_until_labelled({0.5F, 0.2F}, 1.0F), 3);
-  EXPECT_EQ(ticks_until_labelled({0.5F, 0.2F}, 1.9F), 7);
+  EXPECT_EQ(ticks_until_labelled({-0.5F, 0}, 0.5F), 1) << "on the other side";
+  EXPECT_EQ(ticks_until_labelled({0.7F, 0}, 0.5F), 1) << "farther than the one that has a label";
+  EXPECT_EQ(ticks_until_labelled({0.25F, 0.1F}, 0.5F), 3);
+  EXPECT_EQ(ticks_until_labelled({0.25F, 0.1F}, 0.95F), 7);
 }
 
 TEST(Label, OfAnotherEpochCountsNothing) {
-  Bench bench = starting();
-  bench.put(9, {1.0F, 0}).label_cm = 0;
+  ConvoyBench bench = starting();
+  bench.put(9, {0.5F, 0}).label = 0;
   bench.say(9).epoch = 0;
   bench.steps(20);
-  EXPECT_EQ(bench.state.label_cm, unknown_label);
+  EXPECT_EQ(bench.state.label, unknown_label);
 }
 
 TEST(Label, TheEchoSumsTheFloodTree) {
-  Bench bench = starting();
-  bench.put(9, {1.0F, 0}).label_cm = 0;
+  ConvoyBench bench = starting();
+  bench.put(9, {0.5F, 0}).label = 0;
   for (const RobotId id : {RobotId{5}, RobotId{6}}) {
-    auto& m = bench.put(id, {-0.5F, 0.1F * static_cast<float>(id)});
-    m.label_cm = 150;
+    auto& m = bench.put(id, {-0.25F, 0.05F * static_cast<float>(id)});
+    m.label = 150;
     m.flood_parent = 1;
     m.flood_robots = 3;
     m.flood_workers = 1;
@@ -87,15 +88,30 @@ TEST(Label, TheEchoSumsTheFloodTree) {
   EXPECT_TRUE(output.message.flood_done);
   EXPECT_EQ(output.message.flood_robots, 7);
   EXPECT_EQ(output.message.flood_workers, 2);
-  bench.put(7, {0.3F, 0});  // somebody without label appears
+  bench.put(7, {0.15F, 0});  // somebody without label appears
   EXPECT_FALSE(bench.step().message.flood_done);
 }
 
 TEST(Label, GrowsAlongEveryEdgeAndSaturates) {
-  EXPECT_EQ(edge_cm(0.0F), 1);
-  EXPECT_EQ(edge_cm(1.234F), 123);
-  EXPECT_EQ(label_below(100, 0.5F), 150);
-  EXPECT_EQ(label_below(unknown_label - 1, 2.0F), unknown_label - 1);
+  EXPECT_EQ(edge_label(0.0F), 1);
+  EXPECT_EQ(edge_label(0.617F), 158);
+  EXPECT_EQ(label_below(100, 0.25F), 164);
+  EXPECT_EQ(label_below(unknown_label - 1, 1.0F), unknown_label - 1);
+}
+
+// ---- paper ----
+
+// It waits although there may be nobody to wait for.
+TEST(LabelOfThePaper, WaitsForAnybody) {
+  Bench bench;
+  bench.state.epoch = 1;
+  bench.state.phase = Phase::start_tree;
+  bench.state.root = {1, 9};
+  bench.put(9, {0.95F, 0}).label = 0;
+  bench.steps(6);
+  EXPECT_EQ(bench.state.label, unknown_label);
+  bench.step();
+  EXPECT_EQ(bench.state.label, 243);
 }
 
 }  // namespace

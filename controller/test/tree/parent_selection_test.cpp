@@ -9,29 +9,29 @@
 namespace banyan {
 namespace {
 
-template <class Kind = Outwards> BenchOf<Kind> selecting() {
+template <class Kind = Convoy> BenchOf<Kind> selecting() {
   BenchOf<Kind> bench;
   bench.state.epoch = 1;
   bench.state.phase = Phase::select_parent;
   bench.state.root = {1, 9};
-  bench.state.label_cm = 200;
+  bench.state.label = 200;
   return bench;
 }
 
 // A neighbour in the tree.
-template <class Kind> auto& committed(BenchOf<Kind>& bench, RobotId id, Vec2 position, std::uint16_t label_cm) {
+template <class Kind> auto& committed(BenchOf<Kind>& bench, RobotId id, Vec2 position, std::uint16_t label) {
   auto& m = bench.put(id, position);
   m.committed = true;
   m.role = Role::connector;
-  m.label_cm = label_cm;
+  m.label = label;
   m.depth = 3;
   m.tree_hops = 0;
   return m;
 }
 
 TEST(Candidate, IsAliveNoWorkerOfThisEpochNearEnoughAndAhead) {
-  Bench bench = selecting();
-  committed(bench, 5, {1.0F, 0}, 100);
+  ConvoyBench bench = selecting();
+  committed(bench, 5, {0.5F, 0}, 100);
   const auto is = [&] {
     const auto robot = bench.tick();
     return is_candidate(robot, robot.table().find(5), false);
@@ -43,32 +43,25 @@ TEST(Candidate, IsAliveNoWorkerOfThisEpochNearEnoughAndAhead) {
   bench.say(5).epoch = 2;
   EXPECT_FALSE(is());
   bench.say(5).epoch = 1;
-  bench.say(5).label_cm = 200;
+  bench.say(5).label = 200;
   EXPECT_FALSE(is()) << "the order is strict";
-  bench.say(5).label_cm = 199;
+  bench.say(5).label = 199;
   EXPECT_TRUE(is());
-  bench.move(5, {bench.params.ideal_distance_m - 0.01F, 0});
-  EXPECT_FALSE(is()) << "2 cm must be left";
-  bench.move(5, {bench.params.ideal_distance_m - 0.021F, 0});
+  bench.move(5, {bench.params.ideal_distance - 0.005F, 0});
+  EXPECT_FALSE(is()) << "a hundredth of C must be left";
+  bench.move(5, {bench.params.ideal_distance - 0.0105F, 0});
   EXPECT_TRUE(is());
   bench.state.seqno = 7;
   EXPECT_FALSE(is()) << "staler than what I have sent: it may hang on me";
 }
 
-TEST(Candidate, LiteralReachesToC) {
-  BenchOf<OutwardsLiteral> bench = selecting<OutwardsLiteral>();
-  committed(bench, 5, {1.99F, 0}, 100);
-  const auto robot = bench.tick();
-  EXPECT_TRUE(is_candidate(robot, 0, false));
-}
-
 TEST(Ahead, IsFresherOrAsFreshAndNearerToTheRoot) {
-  Bench bench = selecting();
+  ConvoyBench bench = selecting();
   bench.state.seqno = 10;
-  auto& m = committed(bench, 5, {1.0F, 0}, 100);
+  auto& m = committed(bench, 5, {0.5F, 0}, 100);
   const auto ahead = [&](std::uint16_t seqno, std::uint16_t label) {
     m.seqno = seqno;
-    m.label_cm = label;
+    m.label = label;
     const auto robot = bench.tick();
     return is_ahead(robot, 0);
   };
@@ -79,32 +72,200 @@ TEST(Ahead, IsFresherOrAsFreshAndNearerToTheRoot) {
   EXPECT_FALSE(ahead(11, unknown_label));
 }
 
+// The label of a robot after its parent has said one with that sequence number.
+template <class Kind> std::uint16_t label_after(BenchOf<Kind> bench, Phase phase, std::uint16_t seqno) {
+  bench.state.phase = phase;
+  bench.state.is_worker = true;
+  bench.state.parent = 5;
+  bench.state.label = 5000;
+  bench.state.seqno = 10;
+  committed(bench, 5, {0.75F, 0}, 300).seqno = seqno;
+  bench.step();
+  return bench.state.label;
+}
+
 // Parents change all the time in a long epoch, and a robot behind the largest label there is could have none.
 TEST(Label, ShrinksToTheWayAlongTheTreeWithANewerNumber) {
-  const auto label_after = [](auto bench, Phase phase, std::uint16_t seqno) {
-    bench.state.phase = phase;
-    bench.state.is_worker = true;
-    bench.state.parent = 5;
-    bench.state.label_cm = 5000;
-    bench.state.seqno = 10;
-    committed(bench, 5, {1.5F, 0}, 300).seqno = seqno;
-    bench.step();
-    return bench.state.label_cm;
-  };
-  EXPECT_EQ(label_after(selecting<Outwards>(), Phase::grow_tree, 11), 450);
-  EXPECT_EQ(label_after(selecting<Outwards>(), Phase::grow_tree, 10), 5000)
-      << "it would be ahead of where it was believed";
-  EXPECT_EQ(label_after(selecting<Outwards>(), Phase::select_parent, 11), 5000)
+  EXPECT_EQ(label_after(selecting(), Phase::grow_tree, 11), 492);
+  EXPECT_EQ(label_after(selecting(), Phase::grow_tree, 10), 5000) << "it would be ahead of where it was believed";
+  EXPECT_EQ(label_after(selecting(), Phase::select_parent, 11), 5000)
       << "the labels of START TREE decide on the parents";
-  EXPECT_EQ(label_after(selecting<OutwardsLiteral>(), Phase::grow_tree, 11), 5000);
+}
+
+TEST(Join, TheFloodParentWillDoAfterFourTicks) {
+  ConvoyBench bench = selecting();
+  bench.state.is_worker = true;
+  bench.state.flood_parent = 5;
+  committed(bench, 5, {0.945F, 0}, 50).committed = false;
+  bench.steps(4);
+  EXPECT_EQ(bench.state.parent, nobody);
+  bench.step();
+  EXPECT_EQ(bench.state.parent, 5);
+}
+
+TEST(Join, AChildlessRobotMaySortItselfInBehindWhoeverIsFresher) {
+  ConvoyBench bench = selecting();
+  bench.state.is_worker = true;
+  committed(bench, 5, {0.5F, 0}, 400).seqno = 3;
+  bench.steps(7);
+  EXPECT_EQ(bench.state.parent, nobody);
+  bench.step();
+  EXPECT_EQ(bench.state.parent, 5);
+  EXPECT_EQ(bench.state.label, 528);
+  EXPECT_EQ(bench.state.seqno, 3);
+}
+
+// A worker in GROW TREE that hangs on 5, and 6 beside it.
+ConvoyBench working() {
+  ConvoyBench bench = grown();
+  bench.state.is_worker = true;
+  bench.state.label = 200;
+  bench.state.parent = 5;
+  bench.state.committed = true;
+  committed(bench, 5, {0.5F, 0}, 100);
+  committed(bench, 6, {0.5F, 0.25F}, 120);
+  return bench;
+}
+
+// By this rule alone: convoy's others look for a new parent sooner.
+TEST(Repair, ASilentParentIsReplacedOnceTheLivenessPeriodIsOver) {
+  ConvoyBench bench = working();
+  const auto tick = [&] {
+    auto robot = bench.tick();
+    update_role(robot);
+    select_parent(robot, {.may_join = true,
+                          .workers_relay = true,
+                          .accepts = [](int) { return true; },
+                          .prefers = [](int, int) { return false; }});
+  };
+  tick();
+  bench.silence(5);
+  for (int k = 0; k < whole(bench.params.liveness_rounds); ++k) tick();
+  EXPECT_EQ(bench.state.parent, 5);
+  tick();
+  EXPECT_EQ(bench.state.parent, 6);
+  EXPECT_EQ(bench.state.tally.repairs, 1U);
+}
+
+TEST(Repair, WithoutReplacementTheParentIsKept) {
+  ConvoyBench bench = working();
+  bench.step();
+  bench.silence(5);
+  bench.say(6).label = 250;  // behind me
+  bench.steps(40);
+  EXPECT_EQ(bench.state.parent, 5);
+  EXPECT_EQ(bench.state.depth, invalid_depth);
+}
+
+TEST(Orphan, StandsStillAndThenAttachesToWhoeverIsFresherAndNearestToTheTree) {
+  ConvoyBench bench = working();
+  bench.state.seqno = 5;
+  bench.say(5).depth = invalid_depth;  // the chain broke above
+  bench.say(5).seqno = 5;
+  bench.say(5).tree_hops = unreachable;
+  bench.say(6).seqno = 4;  // stale: may be below me
+  committed(bench, 7, {0.25F, 0.5F}, 700).seqno = 9;
+  bench.steps(6);
+  EXPECT_TRUE(is_orphan(bench.tick()));
+  EXPECT_EQ(bench.state.parent, 5);
+  bench.steps(20);
+  EXPECT_EQ(bench.state.parent, 7);
+  EXPECT_EQ(bench.state.label, 843);
+  EXPECT_NE(bench.state.depth, invalid_depth);
+}
+
+TEST(Orphan, CanDraftAFreeSpareThatIsNearerToTheTree) {
+  ConvoyBench bench = working();
+  bench.say(5).depth = invalid_depth;
+  bench.say(5).tree_hops = unreachable;
+  bench.silence(6);
+  auto& spare = bench.put(8, {0.0F, 0.5F});
+  spare.label = 50;
+  spare.seqno = 9;
+  spare.tree_hops = 1;
+  bench.steps(25);
+  EXPECT_EQ(bench.state.parent, 8);
+}
+
+TEST(Seqno, FlowsFromTheParentAndTakesTheLabelAlongIfNeeded) {
+  ConvoyBench bench = working();
+  bench.say(5).seqno = 4;
+  bench.step();
+  EXPECT_EQ(bench.state.seqno, 4);
+  EXPECT_EQ(bench.state.label, 200) << "still behind its parent's";
+  bench.say(5).label = 260;  // the same seqno: nothing moves
+  bench.step();
+  EXPECT_EQ(bench.state.label, 200);
+  bench.say(5).seqno = 5;
+  bench.step();
+  EXPECT_EQ(bench.state.label, 388);
+}
+
+TEST(Seqno, TheRootCounts) {
+  ConvoyBench bench = grown();
+  bench.state.root = {1, 1};
+  bench.state.role = Role::root;
+  bench.state.label = 0;
+  EXPECT_EQ(bench.steps(10).message.seqno, 10);
+  bench.state.seqno = UINT16_MAX;
+  EXPECT_EQ(bench.step().message.seqno, 0) << "it wraps, and is compared as a serial number";
+}
+
+TEST(Seqno, WhoHasNotFollowedTheRootForHalfTheRangeHasNoPlaceInTheOrder) {
+  ConvoyBench bench = grown();
+  bench.state.label = 200;
+  bench.state.seqno = 7;
+  bench.state.seqno_ticks = serial_half_range - 2;
+  bench.step();
+  EXPECT_EQ(bench.state.label, 200);
+  bench.step();
+  EXPECT_EQ(bench.state.label, unknown_label);
+  committed(bench, 5, {0.5F, 0}, 100).seqno = 7 + 40000;  // behind, by the numbers alone
+  EXPECT_TRUE(is_ahead(bench.tick(), 0));
+}
+
+TEST(Prune, ASpareLeafLeavesItsBranchAndOneWithChildrenStays) {
+  ConvoyBench bench = grown();
+  bench.state.label = 200;
+  bench.state.parent = 5;
+  bench.state.committed = true;
+  committed(bench, 5, {0.5F, 0}, 100);
+  auto& child = bench.put(8, {-0.25F, 0});
+  child.parent = 1;
+  child.label = 300;
+  bench.steps(3);
+  EXPECT_EQ(bench.state.role, Role::spare) << "its child is a spare";
+  EXPECT_EQ(bench.state.parent, 5);
+  bench.silence(8);
+  bench.steps(whole(bench.params.liveness_rounds) + 2);
+  EXPECT_EQ(bench.state.parent, nobody);
+  EXPECT_FALSE(bench.state.committed);
+}
+
+TEST(Root, HasNoParentAndDepthOne) {
+  ConvoyBench bench = grown();
+  bench.state.root = {1, 1};
+  committed(bench, 5, {0.5F, 0}, 0).seqno = 100;
+  bench.steps(30);
+  EXPECT_EQ(bench.state.parent, nobody);
+  EXPECT_EQ(bench.state.depth, 1);
+}
+
+// ---- paper ----
+
+TEST(Candidate, LiteralReachesToC) {
+  BenchOf<OutwardsLiteral> bench = selecting<OutwardsLiteral>();
+  committed(bench, 5, {0.995F, 0}, 100);
+  const auto robot = bench.tick();
+  EXPECT_TRUE(is_candidate(robot, 0, false));
 }
 
 TEST(Outwards, TakesTheClosestCommittedCandidate) {
-  Bench bench = selecting();
-  committed(bench, 5, {1.5F, 0}, 50);
-  committed(bench, 6, {1.0F, 0}, 150);
-  committed(bench, 7, {0.2F, 0}, 180).committed = false;
-  committed(bench, 8, {0.1F, 0}, 250);
+  Bench bench = selecting<Outwards>();
+  committed(bench, 5, {0.75F, 0}, 50);
+  committed(bench, 6, {0.5F, 0}, 150);
+  committed(bench, 7, {0.1F, 0}, 180).committed = false;
+  committed(bench, 8, {0.05F, 0}, 250);
   bench.step();
   EXPECT_EQ(bench.state.parent, 6);
   EXPECT_TRUE(bench.state.committed);
@@ -113,153 +274,32 @@ TEST(Outwards, TakesTheClosestCommittedCandidate) {
 
 TEST(Inwards, OnlyWorkersAndTheNamedJoinAndTheyTakeTheSmallestLabelWithinS) {
   BenchOf<Inwards> bench = selecting<Inwards>();
-  committed(bench, 5, {1.45F, 0}, 20);  // beyond S
-  committed(bench, 6, {1.3F, 0}, 60);
-  committed(bench, 7, {0.2F, 0}, 180);
+  committed(bench, 5, {0.725F, 0}, 20);  // beyond S
+  committed(bench, 6, {0.65F, 0}, 60);
+  committed(bench, 7, {0.1F, 0}, 180);
   bench.steps(3);
   EXPECT_EQ(bench.state.parent, nobody) << "nobody needs me";
-  auto& child = bench.put(20, {-1.0F, 0});
+  auto& child = bench.put(20, {-0.5F, 0});
   child.parent = 1;
   child.role = Role::worker;
-  child.label_cm = 300;
+  child.label = 300;
   bench.step();
   EXPECT_EQ(bench.state.parent, 6);
 
   BenchOf<Inwards> worker = selecting<Inwards>();
   worker.state.is_worker = true;
-  committed(worker, 5, {1.45F, 0}, 20);
+  committed(worker, 5, {0.725F, 0}, 20);
   worker.step();
   EXPECT_EQ(worker.state.parent, 5) << "beyond S if there is nobody nearer";
-}
-
-TEST(Join, TheFloodParentWillDoAfterFourTicks) {
-  Bench bench = selecting();
-  bench.state.flood_parent = 5;
-  committed(bench, 5, {1.89F, 0}, 50).committed = false;
-  bench.steps(4);
-  EXPECT_EQ(bench.state.parent, nobody);
-  bench.step();
-  EXPECT_EQ(bench.state.parent, 5);
-}
-
-TEST(Join, AChildlessRobotMaySortItselfInBehindWhoeverIsFresher) {
-  Bench bench = selecting();
-  committed(bench, 5, {1.0F, 0}, 400).seqno = 3;
-  bench.steps(7);
-  EXPECT_EQ(bench.state.parent, nobody);
-  bench.step();
-  EXPECT_EQ(bench.state.parent, 5);
-  EXPECT_EQ(bench.state.label_cm, 500);
-  EXPECT_EQ(bench.state.seqno, 3);
-}
-
-// A worker in GROW TREE that hangs on 5, and 6 beside it.
-Bench working() {
-  Bench bench = grown();
-  bench.state.is_worker = true;
-  bench.state.label_cm = 200;
-  bench.state.parent = 5;
-  bench.state.committed = true;
-  committed(bench, 5, {1.0F, 0}, 100);
-  committed(bench, 6, {1.0F, 0.5F}, 120);
-  return bench;
-}
-
-TEST(Repair, ASilentParentIsReplacedOnceTheLivenessPeriodIsOver) {
-  Bench bench = working();
-  bench.step();
-  bench.silence(5);
-  bench.steps(bench.params.ticks(bench.params.liveness_period_s));
-  EXPECT_EQ(bench.state.parent, 5);
-  bench.step();
-  EXPECT_EQ(bench.state.parent, 6);
-  EXPECT_EQ(bench.state.tally.repairs, 1U);
-}
-
-TEST(Repair, WithoutReplacementTheParentIsKept) {
-  Bench bench = working();
-  bench.step();
-  bench.silence(5);
-  bench.say(6).label_cm = 250;  // behind me
-  bench.steps(40);
-  EXPECT_EQ(bench.state.parent, 5);
-  EXPECT_EQ(bench.state.depth, invalid_depth);
-}
-
-TEST(Orphan, StandsStillAndThenAttachesToWhoeverIsFresherAndNearestToTheTree) {
-  Bench bench = working();
-  bench.state.seqno = 5;
-  bench.say(5).depth = invalid_depth;  // the chain broke above
-  bench.say(5).seqno = 5;
-  bench.say(5).tree_hops = unreachable;
-  bench.say(6).seqno = 4;  // stale: may be below me
-  committed(bench, 7, {0.5F, 1.0F}, 700).seqno = 9;
-  bench.steps(6);
-  EXPECT_TRUE(is_orphan(bench.tick()));
-  EXPECT_EQ(bench.state.parent, 5);
-  bench.steps(20);
-  EXPECT_EQ(bench.state.parent, 7);
-  EXPECT_EQ(bench.state.label_cm, 812);
-  EXPECT_NE(bench.state.depth, invalid_depth);
-}
-
-TEST(Orphan, CanDraftAFreeSpareThatIsNearerToTheTree) {
-  Bench bench = working();
-  bench.say(5).depth = invalid_depth;
-  bench.say(5).tree_hops = unreachable;
-  bench.silence(6);
-  auto& spare = bench.put(8, {0.0F, 1.0F});
-  spare.label_cm = 50;
-  spare.seqno = 9;
-  spare.tree_hops = 1;
-  bench.steps(25);
-  EXPECT_EQ(bench.state.parent, 8);
-}
-
-TEST(Seqno, FlowsFromTheParentAndTakesTheLabelAlongIfNeeded) {
-  Bench bench = working();
-  bench.say(5).seqno = 4;
-  bench.step();
-  EXPECT_EQ(bench.state.seqno, 4);
-  EXPECT_EQ(bench.state.label_cm, 200) << "still behind its parent's";
-  bench.say(5).label_cm = 260;  // the same seqno: nothing moves
-  bench.step();
-  EXPECT_EQ(bench.state.label_cm, 200);
-  bench.say(5).seqno = 5;
-  bench.step();
-  EXPECT_EQ(bench.state.label_cm, 360);
-}
-
-TEST(Seqno, TheRootCounts) {
-  Bench bench = grown();
-  bench.state.root = {1, 1};
-  bench.state.role = Role::root;
-  bench.state.label_cm = 0;
-  EXPECT_EQ(bench.steps(10).message.seqno, 10);
-  bench.state.seqno = UINT16_MAX;
-  EXPECT_EQ(bench.step().message.seqno, 0) << "it wraps, and is compared as a serial number";
-}
-
-TEST(Seqno, WhoHasNotFollowedTheRootForHalfTheRangeHasNoPlaceInTheOrder) {
-  Bench bench = grown();
-  bench.state.label_cm = 200;
-  bench.state.seqno = 7;
-  bench.state.seqno_ticks = serial_half_range - 2;
-  bench.step();
-  EXPECT_EQ(bench.state.label_cm, 200);
-  bench.step();
-  EXPECT_EQ(bench.state.label_cm, unknown_label);
-  committed(bench, 5, {1.0F, 0}, 100).seqno = 7 + 40000;  // behind, by the numbers alone
-  EXPECT_TRUE(is_ahead(bench.tick(), 0));
 }
 
 TEST(InwardsLiteral, TakesTheSmallestLabelAlsoBeyondS) {
   const auto parent = [](auto bench) {
     bench.state.phase = Phase::select_parent;
-    bench.state.label_cm = 300;
-    bench.send({5.0F, 0.0F});
-    committed(bench, 5, {1.2F, 0}, 150);   // within S = 1.35 m
-    committed(bench, 6, {0, 1.45F}, 100);  // beyond
+    bench.state.label = 300;
+    bench.send({2.5F, 0.0F});
+    committed(bench, 5, {0.6F, 0}, 150);    // within S = 0.676
+    committed(bench, 6, {0, 0.725F}, 100);  // beyond
     bench.step();
     return bench.state.parent;
   };
@@ -267,31 +307,8 @@ TEST(InwardsLiteral, TakesTheSmallestLabelAlsoBeyondS) {
   EXPECT_EQ(parent(grown<Inwards>()), 5);
 }
 
-TEST(Prune, ASpareLeafLeavesItsBranchAndOneWithChildrenStays) {
-  Bench bench = grown();
-  bench.state.label_cm = 200;
-  bench.state.parent = 5;
-  bench.state.committed = true;
-  committed(bench, 5, {1.0F, 0}, 100);
-  auto& child = bench.put(8, {-0.5F, 0});
-  child.parent = 1;
-  child.label_cm = 300;
-  bench.steps(3);
-  EXPECT_EQ(bench.state.role, Role::spare) << "its child is a spare";
-  EXPECT_EQ(bench.state.parent, 5);
-  bench.silence(8);
-  bench.steps(bench.params.ticks(bench.params.liveness_period_s) + 2);
-  EXPECT_EQ(bench.state.parent, nobody);
-  EXPECT_FALSE(bench.state.committed);
-}
-
-TEST(Root, HasNoParentAndDepthOne) {
-  Bench bench = grown();
-  bench.state.root = {1, 1};
-  committed(bench, 5, {1.0F, 0}, 0).seqno = 100;
-  bench.steps(30);
-  EXPECT_EQ(bench.state.parent, nobody);
-  EXPECT_EQ(bench.state.depth, 1);
+TEST(LiteralLabel, IsNotRenewedWithinAnEpoch) {
+  EXPECT_EQ(label_after(selecting<OutwardsLiteral>(), Phase::grow_tree, 11), 5000);
 }
 
 }  // namespace

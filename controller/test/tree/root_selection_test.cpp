@@ -10,53 +10,53 @@ namespace banyan {
 namespace {
 
 TEST(RootSelection, OffersTheTokenToTheNeighborNearestToTheCentroid) {
-  Bench bench = handing_over();
-  bench.put(6, {0.5F, 0});
-  bench.put(7, {1.9F, 0}).role = Role::worker;
+  ConvoyBench bench = handing_over();
+  bench.put(6, {0.25F, 0}).role = Role::connector;
+  bench.put(7, {0.95F, 0}).role = Role::worker;
   const auto m = bench.step().message;
   EXPECT_EQ(m.new_root, 5);
-  EXPECT_EQ(m.centroid_x_cm, 100) << "from the addressee, along the edge";
-  EXPECT_EQ(m.centroid_y_cm, 0);
+  EXPECT_EQ(m.centroid_x.value(), 0.5F) << "from the addressee, along the edge";
+  EXPECT_EQ(m.centroid_y.value(), 0.0F);
   EXPECT_EQ(bench.steps(5).message.new_root, 5) << "until it is acknowledged";
 }
 
 // Heir and old root share an edge of the old tree: it would break in the next moment.
 TEST(RootSelection, NobodyAboutToLeaveIsAnHeir) {
-  for (const float away_m : {1.89F, 1.91F}) {
-    Bench bench = handing_over();
-    bench.put(6, {away_m, 0});
-    EXPECT_EQ(bench.step().message.new_root, away_m < 1.9F ? 6 : 5);
+  for (const float away : {0.945F, 0.955F}) {
+    ConvoyBench bench = handing_over();
+    bench.put(6, {away, 0}).role = Role::connector;
+    EXPECT_EQ(bench.step().message.new_root, away < 0.95F ? 6 : 5);
   }
 }
 
 TEST(RootSelection, WhoIsOfferedTheTokenTakesItOnce) {
-  Bench bench = grown();
+  ConvoyBench bench = grown();
   bench.state.phase = Phase::select_root;
   bench.state.parent = 9;
   bench.state.role = Role::connector;
-  auto& m = bench.put(9, {-1.0F, 0});
+  auto& m = bench.put(9, {-0.5F, 0});
   m.root = {4, 9};
   m.new_root = 1;
-  m.centroid_x_cm = 100;
+  m.centroid_x = Coordinate::of(0.5F);
   bench.step();
   EXPECT_EQ(bench.state.root, (RootToken{5, 1}));
   EXPECT_EQ(bench.state.role, Role::root);
   EXPECT_EQ(bench.state.parent, nobody);
   EXPECT_EQ(bench.state.old_parent, 9) << "the edge stays an edge of the tree";
   EXPECT_EQ(bench.state.tally.handovers, 1U);
-  EXPECT_NEAR(bench.state.centroid.x, 1.0F, 1e-5F);
+  EXPECT_NEAR(bench.state.centroid.x, 0.5F, 1e-5F);
   bench.step();
   EXPECT_EQ(bench.state.tally.handovers, 1U) << "a repeated offer is no news";
 
-  Bench worker = grown();
-  worker.send({1.0F, 0});
-  worker.put(9, {-1.0F, 0}) = m;
+  ConvoyBench worker = grown();
+  worker.send({0.5F, 0});
+  worker.put(9, {-0.5F, 0}) = m;
   worker.step();
   EXPECT_NE(worker.state.root.id, 1) << "a worker never takes it";
 }
 
 TEST(RootSelection, TheHeirsGossipEndsTheOldRoot) {
-  Bench bench = handing_over();
+  ConvoyBench bench = handing_over();
   bench.step();
   bench.say(5).root = {2, 5};
   bench.step();
@@ -69,16 +69,16 @@ TEST(RootSelection, TheHeirsGossipEndsTheOldRoot) {
 // In the old tree's order the heir, and whoever was root before, may hang on whom it has ahead: those are no way
 // to the root that is now.
 TEST(RootSelection, TheOldRootTakesNoParentOfTheOldTree) {
-  Bench bench = handing_over();
+  ConvoyBench bench = handing_over();
   bench.state.old_parent = 9;  // from which it had the token
   bench.step();
   bench.say(5).root = {2, 5};
-  auto& before = bench.put(9, {-1.0F, 0});
+  auto& before = bench.put(9, {-0.5F, 0});
   before.role = Role::connector;
   before.committed = true;
-  before.label_cm = 0;
+  before.label = 0;
   before.seqno = static_cast<Serial>(bench.state.seqno + 1);
-  auto& child = bench.put(6, {0, 1.0F});
+  auto& child = bench.put(6, {0, 0.5F});
   child.role = Role::worker;
   child.parent = 1;
   bench.steps(10);
@@ -89,7 +89,7 @@ TEST(RootSelection, TheOldRootTakesNoParentOfTheOldTree) {
 // Where packets are lost, the heir has passed the token on before the old root hears of it.
 TEST(RootSelection, TheOldRootIsTiedToAnHeirThatIsRootNoMore) {
   for (const Serial sequence : {Serial{2}, Serial{3}, Serial{7}}) {
-    Bench bench = handing_over();
+    ConvoyBench bench = handing_over();
     bench.step();
     bench.say(5).root = {sequence, 8};
     bench.step();
@@ -99,7 +99,7 @@ TEST(RootSelection, TheOldRootIsTiedToAnHeirThatIsRootNoMore) {
 
 // An heir that knows nobody better opens an epoch in the tick in which it takes the token.
 TEST(RootSelection, TheOldRootIsTiedToAnHeirThatHasOpenedAnEpoch) {
-  Bench bench = handing_over();
+  ConvoyBench bench = handing_over();
   bench.step();
   const Serial epoch = bench.state.epoch;
   auto& m = bench.say(5);
@@ -113,8 +113,8 @@ TEST(RootSelection, TheOldRootIsTiedToAnHeirThatHasOpenedAnEpoch) {
 }
 
 TEST(RootSelection, AnUnansweredOfferIsTakenBackWithALargerToken) {
-  Bench bench = handing_over();
-  bench.steps(bench.params.ticks(bench.params.handover_timeout_s) + 1);
+  ConvoyBench bench = handing_over();
+  bench.steps(whole(bench.params.handover_rounds) + 1);
   EXPECT_EQ(bench.state.root, (RootToken{1, 1}));
   bench.step();
   EXPECT_EQ(bench.state.root, (RootToken{3, 1}));
@@ -123,8 +123,8 @@ TEST(RootSelection, AnUnansweredOfferIsTakenBackWithALargerToken) {
 }
 
 TEST(RootSelection, WithoutABetterNeighborTheNextEpochOpens) {
-  Bench bench = handing_over();
-  bench.state.centroid = {0.52F, 0};  // the neighbour is nearer by less than 5 cm
+  ConvoyBench bench = handing_over();
+  bench.state.centroid = {0.26F, 0};  // the neighbour is nearer by less than the margin
   bench.step();
   EXPECT_EQ(bench.state.epoch, 2);
   EXPECT_EQ(bench.state.phase, Phase::start_tree);

@@ -38,7 +38,7 @@ RobotId next_alive(const TreeTable& table, RobotId id) {
 RC_GTEST_PROP(TreeTable, ItsSetsAreThoseOfWhatNeighboursSaid, ()) {
   std::minstd_rand random(*rc::gen::inRange(1U, 1000000U));
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
-  Bench bench = grown();
+  ConvoyBench bench = grown();
   const int robots = *rc::gen::element(3, 20, 40, 130);  // of 130 not all find room
   for (int tick = 0; tick < 60; ++tick) {
     for (int id = 2; id < robots; ++id) {
@@ -46,7 +46,7 @@ RC_GTEST_PROP(TreeTable, ItsSetsAreThoseOfWhatNeighboursSaid, ()) {
       const auto n = static_cast<RobotId>(id);
       bench.silence(n);
       if (below(3) == 0) continue;
-      auto& m = bench.put(n, {0.01F * static_cast<float>(below(190)), 0.3F});
+      auto& m = bench.put(n, {0.005F * static_cast<float>(below(190)), 0.15F});
       const auto anyone = [&] { return std::array<RobotId, 3>{nobody, 1, 77}[static_cast<std::size_t>(below(3))]; };
       m.role = static_cast<Role>(below(4));
       m.tree_hops = static_cast<std::uint8_t>(below(3));

@@ -10,10 +10,10 @@ namespace banyan {
 namespace {
 
 TEST(Role, FollowsFromTheTree) {
-  Bench bench = grown();
+  ConvoyBench bench = grown();
   bench.step();
   EXPECT_EQ(bench.state.role, Role::spare);
-  auto& child = bench.put(7, {1.0F, 0});
+  auto& child = bench.put(7, {0.5F, 0});
   child.parent = 1;
   bench.step();
   EXPECT_EQ(bench.state.role, Role::spare) << "a spare child makes no connector";
@@ -25,7 +25,7 @@ TEST(Role, FollowsFromTheTree) {
   bench.step();
   EXPECT_EQ(bench.state.role, Role::connector) << "an old child counts";
   child.old_parent = nobody;
-  bench.steps(bench.params.ticks(bench.params.connector_patience_s));
+  bench.steps(whole(bench.params.connector_rounds));
   EXPECT_EQ(bench.state.role, Role::connector);
   bench.step();
   EXPECT_EQ(bench.state.role, Role::spare);

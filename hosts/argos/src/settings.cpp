@@ -57,8 +57,7 @@ class AttributeReader {
       if (attribute.name == "algorithm") scenario_.mission.algorithm = attribute.value;
     settings_.algorithm = scenario_.algorithms->find(scenario_.mission.algorithm);
     if (settings_.algorithm != nullptr) {
-      for (const ParameterInfo* info : settings_.algorithm->parameters())
-        if (world::platform_key(info->key).empty()) parameters_.push_back(info);
+      parameters_ = settings_.algorithm->parameters();
       return;
     }
     fail("algorithm", *world::name_fault(scenario_.mission.algorithm, scenario_.algorithms->names()));

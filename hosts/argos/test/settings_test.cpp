@@ -79,10 +79,10 @@ TEST(Settings, SayWhatIsWrongAllAtOnce) {
   const std::string many = fault_of({{"range_m", "far"},
                                      {"line_of_sight", "yes"},
                                      {"reading", "loose"},
-                                     {"scale", "-1"},
+                                     {"radius_m", "-1"},
                                      {"role", "boss"},
                                      {"target_m", "3"}});
-  for (const char* word : {"range_m must be a number", "line_of_sight must be true or false", "reading", "scale is -1",
+  for (const char* word : {"range_m must be a number", "line_of_sight must be true or false", "reading", "radius_m is -1",
                            "role", "target_m must be X,Y"})
     EXPECT_NE(many.find(word), std::string::npos) << word << " in " << many;
   EXPECT_NE(fault_of({{"algorithm", "outwards"}, {"target_gain", "nan"}}), "");

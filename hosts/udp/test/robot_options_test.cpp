@@ -25,7 +25,7 @@ TEST(RobotOptions, WhatIsWrittenIsReadAgain) {
   // Option and value side by side.
   // clang-format off
   const auto arguments = with({"--base", "tcp:1.2.3.4:5", "--algorithm", "outwards", "--reading", "literal",
-                               "--scale", "0.7", "--range", "1.7", "--tick", "0.05", "--wheel-limit", "0.13",
+                               "--range", "1.7", "--tick", "0.05", "--wheel-limit", "0.13",
                                "--wheel-distance", "0.3", "--radius", "0.09", "--arrival", "0.1",
                                "--link-redundancy", "2", "--holonomic", "--no-line-of-sight", "--set",
                                "safe_range=0.7", "--set", "x=0.1", "--stop-after", "0.7", "--delay", "0.02",

@@ -85,7 +85,7 @@ class RobotAlone : public ::testing::Test {
   }
   Given given_;
   Listening algorithm_{given_};
-  UdpRobot robot_{algorithm_, banyan::Setup{}, 7, 0.5, 0.07F};
+  UdpRobot robot_{algorithm_, banyan::Setup{}, 7, 0.5};
 };
 
 TEST_F(RobotAlone, BeginsAsTheHubSays) {

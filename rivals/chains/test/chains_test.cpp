@@ -21,7 +21,6 @@ using Swarm_ = Net<Robots>;
 Params holonomic() {
   Params p;
   p.drive = Drive::holonomic;
-  p.wheel_limit_m_s = 1.0F;
   return p;
 }
 
@@ -34,15 +33,15 @@ class OnAxis {
     child_.below[0] = 9;
     child_.root = 0;
   }
-  Velocity step(float parent_m, float child_m, int links_of_child, float beyond_child_m, float target_m) {
-    std::vector<Heard> heard{{&base_, {-parent_m, 0.0F}}};
+  Motion step(float parent, float child, int links_of_child, float beyond_child, float target) {
+    std::vector<Heard> heard{{&base_, {-parent, 0.0F}}};
     child_.links = static_cast<std::uint8_t>(links_of_child);
-    child_.beyond_cm = static_cast<std::uint16_t>(std::lround(beyond_child_m * 100.0F));
+    child_.beyond = static_cast<std::uint16_t>(std::lround(beyond_child * per_range));
     child_.asks = state_.is_free() ? 1 : nobody;
     Senses senses;
-    if (state_.is_worker() || state_.assignment.sent) senses.orders = {true, Vec2{target_m, 0.0F}};
-    else heard.push_back({&child_, {child_m, 0.0F}});
-    return Robots::step(params_, state_, {heard, senses, params_}).velocity;
+    if (state_.is_worker() || state_.assignment.sent) senses.orders = {true, Vec2{target, 0.0F}};
+    else heard.push_back({&child_, {child, 0.0F}});
+    return Robots::step(params_, state_, {heard, senses, test_platform}).motion;
   }
   [[nodiscard]] const State& state() const { return state_; }
 
@@ -52,69 +51,69 @@ class OnAxis {
   Message base_, child_;
 };
 
-// What the guard leaves of a speed away from a parent at distance d: (MAX - d) / 2 per second.
-float guarded(const Params& p, float d) { return std::min(p.speed_gain_m_s, 0.5F * (p.longest_link_m - d)); }
+// What the guard leaves of a speed away from a parent at distance d: (MAX - d) / 2 times its rate.
+float guarded(const Params& p, float d) { return std::min(p.speed_gain, 0.5F * (p.longest_link - d) * p.guard_rate); }
 
 TEST(Chains, AWorkerGoesOnWhileItsParentIsSafeAndBackWhereItIsCritical) {
   const Params p = holonomic();
   for (int cm = 30; cm < 140; ++cm) {
-    const float d = 0.01F * static_cast<float>(cm);
+    const float d = 0.005F * static_cast<float>(cm);
     OnAxis worker(p, true);
-    worker.step(0.5F, 0.0F, 0, 0.0F, 5.0F);
-    const float v = worker.step(d, 0.0F, 0, 0.0F, 5.0F).forward_m_s;
-    const float expected = d < 0.56F * 2.0F ? guarded(p, d) : d < 0.64F * 2.0F ? 0.0F : -p.speed_gain_m_s;
-    EXPECT_NEAR(v, expected, 1e-4F) << d;
+    worker.step(0.25F, 0.0F, 0, 0.0F, 2.5F);
+    const float v = worker.step(d, 0.0F, 0, 0.0F, 2.5F).forward;
+    const float expected = d < 0.56F ? guarded(p, d) : d < 0.64F ? 0.0F : -p.speed_gain;
+    EXPECT_NEAR(v, expected, 5e-4F) << d;
   }
 }
 
 TEST(Chains, ARelayGoesOnUntilItIsSoManySafeDistancesBeforeTheTargetAsLinksFromTheWorker) {
   const Params p = holonomic();
-  for (const float d : {0.4F, 0.9F, 1.115F, 1.125F, 1.275F, 1.285F, 1.35F})
+  for (const float d : {0.2F, 0.45F, 0.5575F, 0.5625F, 0.6375F, 0.6425F, 0.675F})
     for (int links = 0; links < 3; ++links)
-      for (const float child_m : {0.5F, 0.9F, 1.1F, 1.2F})
-        for (const float beyond_m : {0.0F, 0.6F, 1.1F, 1.3F, 2.5F}) {
+      for (const float child : {0.25F, 0.45F, 0.55F, 0.6F})
+        for (const float beyond : {0.0F, 77.0F / per_range, 141.0F / per_range, 166.0F / per_range, 1.25F}) {
           OnAxis relay(p, false);
-          for (int t = 0; t < 2; ++t) relay.step(0.4F, child_m, links, beyond_m, 0.0F);
+          for (int t = 0; t < 2; ++t) relay.step(0.2F, child, links, beyond, 0.0F);
           ASSERT_EQ(relay.state().chains[0].parent, 0);
-          const float v = relay.step(d, child_m, links, beyond_m, 0.0F).forward_m_s;
-          const float missing_m = child_m + beyond_m - static_cast<float>(links + 1) * 1.12F;
-          if (d >= 1.28F) {
-            EXPECT_NEAR(v, -guarded(p, child_m), 1e-4F) << d;
-          } else if (d >= 1.12F || missing_m < 0.005F) {
-            EXPECT_EQ(v, 0.0F) << d << ' ' << missing_m;
+          const float v = relay.step(d, child, links, beyond, 0.0F).forward;
+          const float missing = child + beyond - static_cast<float>(links + 1) * 0.56F;
+          if (d >= 0.64F) {
+            EXPECT_NEAR(v, -guarded(p, child), 5e-4F) << d;
+          } else if (d >= 0.56F || missing < 0.0025F) {
+            EXPECT_EQ(v, 0.0F) << d << ' ' << missing;
           } else {
-            const float wanted = p.speed_gain_m_s * std::min(1.0F, missing_m / 0.2F);
-            EXPECT_NEAR(v, std::min(guarded(p, d), wanted), 1e-4F) << d;
+            const float wanted = p.speed_gain * std::min(1.0F, missing / 0.1F);
+            EXPECT_NEAR(v, std::min(guarded(p, d), wanted), 5e-4F) << d;
           }
         }
 }
 
 TEST(Chains, TheBaseStaysWhereItIs) {
-  Swarm_ net(holonomic(), {{0.0F, 0.0F}, {0.1F, 0.0F}, {1.9F, 0.0F}}, 1);
+  Swarm_ net(holonomic(), {{0.0F, 0.0F}, {0.05F, 0.0F}, {0.95F, 0.0F}}, 1);
   for (int t = 0; t < 20; ++t) net.tick();
   Message near = net.said[1];
-  std::vector<Heard> heard{{&near, {0.05F, 0.0F}}};
-  const std::array obstacles{Vec2{0.1F, 0.0F}};
+  std::vector<Heard> heard{{&near, {0.025F, 0.0F}}};
+  const std::array obstacles{Vec2{0.05F, 0.0F}};
   Senses senses;
   senses.obstacles = obstacles;
-  const Velocity v = Robots::step(net.params, net.states[0], {heard, senses, net.params}).velocity;
-  EXPECT_TRUE(v.forward_m_s == 0.0F && v.sideways_m_s == 0.0F && v.turn_rad_s == 0.0F);
-  EXPECT_NE(Robots::step(net.params, net.states[1], {heard, senses, net.params}).velocity.forward_m_s, 0.0F)
+  const Motion v = Robots::step(net.params, net.states[0], {heard, senses, test_platform}).motion;
+  EXPECT_TRUE(v.forward == 0.0F && v.sideways == 0.0F && v.turn == 0.0F);
+  EXPECT_NE(Robots::step(net.params, net.states[1], {heard, senses, test_platform}).motion.forward, 0.0F)
       << "another would move";
 }
 
-// Robot 0 is the base, 1 a worker that stands `at`, with its target `target_m` from the base; the rest is free.
-Swarm_ mission(Params params, std::vector<Vec2> free, Vec2 at, float target_m, std::uint64_t seed) {
+// Robot 0 is the base, 1 a worker that stands `at`, with its target `target` from the base; the rest is free.
+Swarm_ mission(Params params, std::vector<Vec2> free, Vec2 at, float target, std::uint64_t seed) {
   std::vector<Vec2> places{{0.0F, 0.0F}, at};
   places.insert(places.end(), free.begin(), free.end());
   Swarm_ net(params, places, seed);
-  net.orders[1] = {true, rotate_back(net.facing[1], Vec2{target_m, 0.0F} - at)};
+  net.orders[1] = {true, rotate_back(net.facing[1], Vec2{target, 0.0F} - at)};
   return net;
 }
-std::vector<Vec2> row(int count, float first_m, float apart_m) {
+std::vector<Vec2> row(int count, float first, float apart) {
   std::vector<Vec2> places;
   places.reserve(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) places.push_back({first_m + static_cast<float>(i) * apart_m, 0.05F});
+  for (int i = 0; i < count; ++i) places.push_back({first + static_cast<float>(i) * apart, 0.025F});
   return places;
 }
 
@@ -131,10 +130,10 @@ std::vector<std::size_t> relays_of(const Swarm_& net, std::size_t chain = 0) {
 // The authors' program: ceil(path / SAFE) links, so one relay less.
 TEST(Chains, AsManyRelaysJoinAsThePathHasSafeDistances) {
   for (int cm = 120; cm < 900; cm += 17) {
-    const float target_m = 0.01F * static_cast<float>(cm);
-    Swarm_ net = mission(Params{}, row(10, 0.1F, 0.08F), {0.95F, 0.0F}, target_m, 3);
+    const float target = 0.005F * static_cast<float>(cm);
+    Swarm_ net = mission(Params{}, row(10, 0.05F, 0.04F), {0.475F, 0.0F}, target, 3);
     for (int t = 0; t < 120; ++t) net.tick();
-    EXPECT_EQ(relays_of(net).size(), static_cast<std::size_t>(std::ceil(cm / 112.0)) - 1) << target_m;
+    EXPECT_EQ(relays_of(net).size(), static_cast<std::size_t>(std::ceil(cm / 112.0)) - 1) << target;
   }
 }
 
@@ -142,7 +141,7 @@ TEST(Chains, TwoChainsHaveNoRobotInCommon) {
   Params p;
   p.chains_per_target = 2.0F;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    Swarm_ net = mission(p, row(10, 0.1F, 0.08F), {0.95F, 0.0F}, 3.0F, seed);
+    Swarm_ net = mission(p, row(10, 0.05F, 0.04F), {0.475F, 0.0F}, 1.5F, seed);
     net.loss = 0.3 * static_cast<double>(seed % 2);
     for (int t = 0; t < 300; ++t) net.tick();
     std::set<std::size_t> all;
@@ -158,7 +157,7 @@ TEST(Chains, TwoChainsHaveNoRobotInCommon) {
 // A robot hears some of those that are next but one, so a chain of robots near each other closes up where it stands.
 TEST(Chains, WhoDiesIsPassedOverWithinBoundedTime) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    Swarm_ net = mission(Params{}, row(6, 0.3F, 0.25F), {1.9F, 0.0F}, 6.0F, seed);
+    Swarm_ net = mission(Params{}, row(6, 0.15F, 0.125F), {0.95F, 0.0F}, 3.0F, seed);
     net.loss = 0.2 * static_cast<double>(seed % 2);
     for (int t = 0; t < 300; ++t) net.tick();
     std::vector<std::size_t> relays = relays_of(net);
@@ -181,7 +180,7 @@ TEST(Chains, WhoDiesIsPassedOverWithinBoundedTime) {
 
 // The far end of what a robot lists is as far as it can skip.
 TEST(Chains, ListsNameTheNextFourRobotsEachWay) {
-  Swarm_ net = mission(Params{}, row(6, 0.3F, 0.25F), {1.9F, 0.0F}, 8.0F, 1);
+  Swarm_ net = mission(Params{}, row(6, 0.15F, 0.125F), {0.95F, 0.0F}, 4.0F, 1);
   for (int t = 0; t < 200; ++t) net.tick();
   std::vector<std::size_t> way{1};
   for (const std::size_t relay : relays_of(net)) way.push_back(relay);
@@ -196,7 +195,7 @@ TEST(Chains, ListsNameTheNextFourRobotsEachWay) {
 }
 
 TEST(Chains, WhoDoesNotAnswerIsNotAskedAgainForAWhile) {
-  Swarm_ net = mission(Params{}, {{0.9F, 0.1F}, {0.5F, 0.0F}}, {1.0F, 0.0F}, 2.0F, 1);
+  Swarm_ net = mission(Params{}, {{0.45F, 0.05F}, {0.25F, 0.0F}}, {0.5F, 0.0F}, 1.0F, 1);
   net.hidden = [](std::size_t i, std::size_t j) { return i == 2 && j == 1; };  // 2 does not hear the worker
   for (int t = 0; t < 10; ++t) net.tick();
   EXPECT_EQ(net.states[1].chains[0].asked, 2) << "the nearest";
@@ -208,7 +207,7 @@ TEST(Chains, WhoDoesNotAnswerIsNotAskedAgainForAWhile) {
 }
 
 TEST(Chains, WhoIsOfNoMoreUseIsFreeAgain) {
-  Swarm_ net = mission(Params{}, row(6, 0.3F, 0.25F), {1.9F, 0.0F}, 6.0F, 1);
+  Swarm_ net = mission(Params{}, row(6, 0.15F, 0.125F), {0.95F, 0.0F}, 3.0F, 1);
   for (int t = 0; t < 200; ++t) net.tick();
   ASSERT_GE(relays_of(net).size(), 4U);
   net.orders[1] = {};
@@ -217,14 +216,14 @@ TEST(Chains, WhoIsOfNoMoreUseIsFreeAgain) {
 }
 
 TEST(Chains, NothingSensedMakesAVelocityInfinite) {
-  Swarm_ net = mission(Params{}, row(3, 0.3F, 0.2F), {1.0F, 0.0F}, 4.0F, 1);
+  Swarm_ net = mission(Params{}, row(3, 0.15F, 0.1F), {0.5F, 0.0F}, 2.0F, 1);
   for (int t = 0; t < 60; ++t) net.tick();
   Message wild = net.said[3];
   wild.above.fill(0);
   wild.below.fill(3);
   wild.links = 255;
   wild.chain = 255;
-  wild.beyond_cm = wild.path_cm = 65535;
+  wild.beyond = wild.path = 65535;
   for (const RobotId worker : {RobotId{1}, RobotId{3}}) {
     wild.worker = worker;
     expect_finite_motion<Robots>(net, wild, 60, [](const State&, Message& m, int t) {

@@ -10,7 +10,7 @@ struct Sample : Robots {
   static void fill(Message& m) {
     m.id = sender();
     for (RobotId* id : {&m.worker, &m.asks, &m.root}) *id = robot();
-    for (std::uint16_t* n : {&m.beyond_cm, &m.path_cm}) *n = word();
+    for (std::uint16_t* n : {&m.beyond, &m.path}) *n = word();
     for (std::uint8_t* n : {&m.chain, &m.links, &m.root_age}) *n = byte();
     m.whole = *rc::gen::arbitrary<bool>();
     for (Ids* ids : {&m.above, &m.below})

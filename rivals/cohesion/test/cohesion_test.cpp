@@ -22,27 +22,27 @@ using Swarm_ = Net<Robots>;
 constexpr double half_turn = 3.14159265358979323846;
 
 // Rings of a hexagon of robots, from its middle. They are so far apart that nobody hears the next but one in its row.
-constexpr float apart_m = 1.05F;
+constexpr float apart = 0.525F;
 struct Cell {
   int ring;
   bool is_corner;
 };
 Cell cell_of(Vec2 place) {
-  const Vec2 p = place / apart_m;
+  const Vec2 p = place / apart;
   const int row = static_cast<int>(std::lround(p.y / 0.8660254F)),
             column = static_cast<int>(std::lround(p.x - 0.5F * static_cast<float>(row)));
   const int third = row + column;
   return {std::max({std::abs(row), std::abs(column), std::abs(third)}), row == 0 || column == 0 || third == 0};
 }
-std::vector<Vec2> hexagon(int first_ring, int last_ring, double jitter_m, Draw& draw) {
+std::vector<Vec2> hexagon(int first_ring, int last_ring, double jitter, Draw& draw) {
   std::vector<Vec2> places;
   for (int row = -last_ring; row <= last_ring; ++row)
     for (int column = -last_ring; column <= last_ring; ++column) {
       const Vec2 p{static_cast<float>(column) + 0.5F * static_cast<float>(row), 0.8660254F * static_cast<float>(row)};
-      const int ring = cell_of(p * apart_m).ring;
+      const int ring = cell_of(p * apart).ring;
       if (ring < first_ring || ring > last_ring) continue;
-      const auto x = static_cast<float>(draw(-jitter_m, jitter_m));
-      places.push_back(p * apart_m + Vec2{x, static_cast<float>(draw(-jitter_m, jitter_m))});
+      const auto x = static_cast<float>(draw(-jitter, jitter));
+      places.push_back(p * apart + Vec2{x, static_cast<float>(draw(-jitter, jitter))});
     }
   return places;
 }
@@ -59,7 +59,7 @@ double mean_of(const SaidSector& s) {
 TEST(Cohesion, KnowsHowNeighboursAreTurned) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     Draw draw(seed);
-    Swarm_ net(Params{}, connected_places(30, 4.0, 1.2, draw), seed);
+    Swarm_ net(Params{}, connected_places(30, 2.0, 0.6, draw), seed);
     for (int t = 0; t < 4; ++t) net.tick();
     std::size_t known = 0, all = 0;
     for (std::size_t i = 0; i < net.at.size(); ++i) {
@@ -88,7 +88,7 @@ TEST_P(Hexagon, ItsBoundariesAreKnownAndWhichIsTheOuter) {
   const auto [first, last] = GetParam();
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
     Draw draw(seed);
-    Swarm_ net(Params{}, hexagon(first, last, 0.04, draw), seed);
+    Swarm_ net(Params{}, hexagon(first, last, 0.02, draw), seed);
     for (int t = 0; t < 150; ++t) net.tick();
     for (std::size_t i = 0; i < net.at.size(); ++i) {
       const auto [ring, is_corner] = cell_of(net.at[i]);
@@ -111,7 +111,7 @@ TEST(Cohesion, EachSideOfARingHasAMeanOfItsOwn) {
   constexpr int n = 20;
   std::vector<Vec2> places;
   places.reserve(n);
-  for (int k = 0; k < n; ++k) places.push_back(unit_vector(2.0F * pi<float> * static_cast<float>(k) / n) * 3.36F);
+  for (int k = 0; k < n; ++k) places.push_back(unit_vector(2.0F * pi<float> * static_cast<float>(k) / n) * 1.68F);
   Swarm_ net(Params{}, places, 1);
   for (int t = 0; t < 150; ++t) net.tick();
   for (const Message& m : net.said) {
@@ -128,11 +128,9 @@ TEST(Cohesion, WhoSeesNoGapIsSurrounded) {
   std::size_t surrounded = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Draw draw(seed);
-    Swarm_ net(Params{}, connected_places(50, 7.0, 1.4, draw), seed);
+    Swarm_ net(Params{}, connected_places(50, 3.5, 0.7, draw), seed);
     for (int t = 0; t < 6; ++t) net.tick();
-    const auto links = [&](std::size_t i, std::size_t j) {
-      return distance(net.at[i], net.at[j]) < net.params.communication_range_m;
-    };
+    const auto links = [&](std::size_t i, std::size_t j) { return distance(net.at[i], net.at[j]) < 1.0F; };
     const auto covers = [&](std::size_t i, double direction) {
       for (std::size_t a = 0; a < net.at.size(); ++a)
         for (std::size_t b = 0; b < net.at.size(); ++b) {
@@ -169,8 +167,7 @@ TEST(Cohesion, ThicknessIsThatOfTheAuthorsFigure) {
   constexpr int middle = columns / 2;
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c)
-      places.push_back(unit_vector(0.0101F * static_cast<float>(c - middle)) *
-                       (100.0F + 1.02F * static_cast<float>(r)));
+      places.push_back(unit_vector(0.0101F * static_cast<float>(c - middle)) * (50.0F + 0.51F * static_cast<float>(r)));
   Swarm_ net(Params{}, places, 1);
   for (int t = 0; t < 400; ++t) net.tick();
   const auto figure = [&](int r, int c) {
@@ -203,12 +200,12 @@ TEST(Cohesion, TwoNeighboursRestHalfALinkApart) {
     return bump * 0.5 * (13.0 * s / std::sqrt(1.0 + s * s) - 3.0) * d / std::sqrt(1.0 + d * d);
   };
   for (int k = 1; k <= 40; ++k) {
-    const float d = 0.05F * static_cast<float>(k);
+    const float d = 0.025F * static_cast<float>(k);
     Swarm_ net(Params{}, {{0, 0}, {d, 0}}, 1);
     net.tick();
-    const double truth = force(static_cast<double>(d / net.params.longest_link_m) * 1.2);
+    const double truth = force(static_cast<double>(d / net.params.longest_link) * 1.2);
     const Robot robot{net.params, net.states[0]};
-    if (d >= net.params.communication_range_m) continue;
+    if (d >= 1.0F) continue;
     EXPECT_NEAR(static_cast<double>(norm(lattice_force(robot, {}))), std::fabs(truth), 1e-4) << d;
     EXPECT_EQ(dot(lattice_force(robot, {}), robot.around.place(0)) > 0.0F, truth > 0.0) << d;
   }
@@ -220,16 +217,16 @@ TEST(Cohesion, LeadersAreKnownByTheirHopsAndTheirMotion) {
   std::size_t as_near = 0;
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     Draw draw(seed);
-    Swarm_ net(Params{}, connected_places(25, 6.0, 1.2, draw), seed);
+    Swarm_ net(Params{}, connected_places(25, 3.0, 0.6, draw), seed);
     for (const std::size_t leader : {std::size_t{3}, std::size_t{11}}) {
-      net.orders[leader] = {true, Vec2{9.0F, 0.0F}};
+      net.orders[leader] = {true, Vec2{4.5F, 0.0F}};
       std::vector<int> hops(net.at.size(), -1);
       hops[leader] = 0;
       for (int h = 0; h < 25; ++h)
         for (std::size_t i = 0; i < net.at.size(); ++i)
           for (std::size_t j = 0; j < net.at.size(); ++j)
             if (hops[i] == h && net.hears(j, i) && hops[j] < 0) hops[j] = h + 1;
-      const Vec2 way{0.012F, -0.005F};  // a tick, of all robots: nobody's neighbours change
+      const Vec2 way{0.006F, -0.0025F};  // a tick, of all robots: nobody's neighbours change
       for (int t = 0; t < 60; ++t) net.tick(std::vector<Vec2>(net.at.size(), way));
       for (std::size_t i = 0; i < net.at.size(); ++i) {
         const auto& said = net.said[i].leaders;
@@ -239,7 +236,7 @@ TEST(Cohesion, LeadersAreKnownByTheirHopsAndTheirMotion) {
         EXPECT_LE(it->hops, hops[i] + 1) << i << ": one more where it cannot tell how a neighbour is turned";
         as_near += it->hops == hops[i] ? 1U : 0U;
         const Vec2 velocity = rotate(net.facing[i], it->velocity.in_frame());
-        EXPECT_LT(distance(velocity, way / (net.params.tick_s * net.params.speed_gain_m_s)),
+        EXPECT_LT(distance(velocity, way / (net.params.way_in_a_round() * net.params.speed_gain)),
                   0.02F * static_cast<float>(1 + hops[i]))
             << i;
       }
@@ -249,8 +246,8 @@ TEST(Cohesion, LeadersAreKnownByTheirHopsAndTheirMotion) {
 }
 
 TEST(Cohesion, ALeaderWithFewNeighboursCallsAndTheCallFades) {
-  Swarm_ net(Params{}, {{0, 0}, {1.5F, 0}, {3.0F, 0}, {4.5F, 0}}, 1);
-  net.orders[0] = {true, Vec2{-5.0F, 0.0F}};
+  Swarm_ net(Params{}, {{0, 0}, {0.75F, 0}, {1.5F, 0}, {2.25F, 0}}, 1);
+  net.orders[0] = {true, Vec2{-2.5F, 0.0F}};
   for (int t = 0; t < 20; ++t) net.tick();
   double expected = 2.0;  // one neighbour where three are enough
   for (const Message& m : net.said) {
@@ -263,7 +260,7 @@ TEST(Cohesion, ALeaderWithFewNeighboursCallsAndTheCallFades) {
 }
 
 TEST(Cohesion, OneRobotIsRootAndAnotherFollowsItsSilence) {
-  Swarm_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}, {3, 0}}, 1);
+  Swarm_ net(Params{}, {{0, 0}, {0.5F, 0}, {1, 0}, {1.5F, 0}}, 1);
   for (int t = 0; t < 10; ++t) net.tick();
   EXPECT_EQ(net.states[3].root, 0);
   net.hidden = [](std::size_t i, std::size_t j) { return i == 0 || j == 0; };
@@ -272,10 +269,10 @@ TEST(Cohesion, OneRobotIsRootAndAnotherFollowsItsSilence) {
   EXPECT_EQ(net.states[3].root, 1);
 }
 
-TEST(Cohesion, PromisesNoLink) { expect_no_links<Robots>(Swarm_(Params{}, {{0, 0}, {1, 0}, {2, 0}}, 1)); }
+TEST(Cohesion, PromisesNoLink) { expect_no_links<Robots>(Swarm_(Params{}, {{0, 0}, {0.5F, 0}, {1, 0}}, 1)); }
 
 TEST(Cohesion, NothingSensedMakesAVelocityInfinite) {
-  Swarm_ net(Params{}, {{0, 0}, {1, 0}, {1, 1}}, 1);
+  Swarm_ net(Params{}, {{0, 0}, {0.5F, 0}, {0.5F, 0.5F}}, 1);
   for (int t = 0; t < 60; ++t) net.tick();
   Message wild = net.said[1];
   for (SaidSector& s : wild.sectors) s = {{0, 65535}, {2, 0}, {65535, 255}, {0, 1}};

@@ -14,6 +14,7 @@
 
 #include "banyan/controller/core/inputs.hpp"
 #include "banyan/controller/core/trig.hpp"
+#include "test_platform.hpp"
 
 namespace banyan::rivals {
 
@@ -61,9 +62,11 @@ class Components {
   std::vector<std::size_t> up_;
 };
 
-// R: Robots of a rival (core/swarm_of.hpp). They turn as they like and do not move by themselves.
+// R: Robots of a rival (core/swarm_of.hpp). They turn as they like and do not move by themselves. Places are in metres,
+// which are C unless a test says otherwise.
 template <class R> struct Net {
   typename R::Params params;
+  Platform platform = test_platform;
   std::vector<Vec2> at;
   std::vector<Vec2> facing;
   std::vector<typename R::State> states;
@@ -96,7 +99,7 @@ template <class R> struct Net {
     }
   }
   [[nodiscard]] bool hears(std::size_t i, std::size_t j) const {
-    return i != j && distance(at[i], at[j]) < params.communication_range_m && !hidden(i, j);
+    return i != j && distance(at[i], at[j]) < platform.communication_range_m && !hidden(i, j);
   }
   // All have been moved by `ways` since the last tick.
   void tick(const std::vector<Vec2>& ways = {}) {
@@ -121,8 +124,8 @@ template <class R> struct Net {
       senses.orders = orders[i];
       const Vec2 way = rotate_back(facing[i], driven[i]);
       senses.odometry = {way.x, way.y, 0.0F};
-      if (!period.empty()) senses.elapsed_s = static_cast<float>(every) * params.tick_s;
-      said[i] = R::step(params, states[i], {heard, senses, params}).message;
+      if (!period.empty()) senses.elapsed_s = static_cast<float>(every) * platform.tick_s;
+      said[i] = R::step(params, states[i], {heard, senses, platform}).message;
       stepped[i] += every;
       driven[i] = {};
       waiting.clear();
@@ -151,7 +154,7 @@ inline std::vector<Vec2> connected_places(std::size_t n, double side_m, double r
     bool near = false, too_near = false;
     for (const Vec2 q : places) {
       near = near || distance(p, q) < static_cast<float>(reach_m);
-      too_near = too_near || distance(p, q) < 0.15F;
+      too_near = too_near || distance(p, q) < 0.075F;
     }
     if (near && !too_near) places.push_back(p);
   }

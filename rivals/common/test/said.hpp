@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "over_the_wire.hpp"
+#include "test_platform.hpp"
 
 namespace banyan::rivals {
 
@@ -76,11 +77,11 @@ TYPED_TEST_P(Said, AnythingIsSurvived) {
       for (auto& m : messages) {
         m = TestFixture::drawn();
         m.id = *rc::gen::inRange<RobotId>(0, 6);
-        heard.push_back({&m, {0.01F * static_cast<float>(byte()), 0.01F * static_cast<float>(byte()) - 1.0F}});
+        heard.push_back({&m, {0.005F * static_cast<float>(byte()), 0.005F * static_cast<float>(byte()) - 0.5F}});
       }
-      const auto output = TypeParam::step(params, state, {heard, {}, params});
-      RC_ASSERT(std::isfinite(output.velocity.forward_m_s) && std::isfinite(output.velocity.turn_rad_s));
-      RC_ASSERT(std::abs(output.velocity.forward_m_s) <= params.wheel_limit_m_s);
+      const auto output = TypeParam::step(params, state, {heard, {}, test_platform});
+      RC_ASSERT(std::isfinite(output.motion.forward) && std::isfinite(output.motion.turn));
+      RC_ASSERT(std::abs(output.motion.forward) <= 1.0F);
       RC_ASSERT(over_the_wire(output.message).has_value());
     }
   });

@@ -30,9 +30,9 @@ void expect_finite_motion(
     senses.obstacles = obstacles;
     senses.elapsed_s = bad;
     for (int t = 0; t < steps; ++t) {
-      std::vector<typename R::Heard> heard{{&wild, {bad, 0}, bad}, {&net.said[2], {0, 0}}, {&wild, {1, 0}}};
-      const Velocity v = R::step(net.params, s, {heard, senses, net.params}).velocity;
-      ASSERT_TRUE(std::isfinite(v.forward_m_s) && std::isfinite(v.turn_rad_s)) << bad;
+      std::vector<typename R::Heard> heard{{&wild, {bad, 0}, bad}, {&net.said[2], {0, 0}}, {&wild, {0.5F, 0}}};
+      const Motion v = R::step(net.params, s, {heard, senses, net.platform}).motion;
+      ASSERT_TRUE(std::isfinite(v.forward) && std::isfinite(v.turn)) << bad;
       if (after) after(s, wild, t);
     }
   }

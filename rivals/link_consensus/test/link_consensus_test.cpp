@@ -38,37 +38,37 @@ std::size_t kept_parts(const Robots_& net) {
 
 Params eager() {  // to give up whatever can be
   Params p;
-  p.add_distance_m = 0.1F;
-  p.nominate_distance_m = 0.11F;
+  p.add_distance = 0.05F;
+  p.nominate_distance = 0.055F;
   return p;
 }
 
 struct Case {
   std::size_t robots;
-  double side_m;
+  double side;
   double loss;
 };
 
 class Agreement : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(All, Agreement,
-                         testing::Values(Case{8, 3.0, 0.0}, Case{20, 4.0, 0.0}, Case{20, 5.0, 0.3},
-                                         Case{40, 6.0, 0.1}));
+                         testing::Values(Case{8, 1.5, 0.0}, Case{20, 2.0, 0.0}, Case{20, 2.5, 0.3},
+                                         Case{40, 3.0, 0.1}));
 
 // All who want to be rid of all links: what is left at the end is a spanning tree, and on the way there the kept links
 // never fall into parts.
 TEST_P(Agreement, GivesUpEveryLinkButThoseOfATreeAndNeverTheLastPath) {
-  const auto [robots, side_m, loss] = GetParam();
+  const auto [robots, side, loss] = GetParam();
   std::size_t spare_links = 0;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     Draw draw(seed);
-    Robots_ net(Params{}, connected_places(robots, side_m, 1.15, draw), seed);
+    Robots_ net(Params{}, connected_places(robots, side, 0.575, draw), seed);
     for (int t = 0; t < 20; ++t) net.tick();
     ASSERT_EQ(kept_parts(net), 1U) << seed;
     const std::size_t first = kept_links(net);
     spare_links += first - (robots - 1);
     net.params = eager();
     net.loss = loss;
-    net.params.liveness_period_s = 3.0F;  // nobody falls silent by bad luck: that would not be an agreement
+    net.params.liveness_rounds = 30.0F;  // nobody falls silent by bad luck: that would not be an agreement
     for (int t = 0; t < 6000 && kept_links(net) > robots - 1; ++t) {
       net.tick();
       ASSERT_EQ(kept_parts(net), 1U) << "seed " << seed << ", tick " << t;
@@ -80,14 +80,14 @@ TEST_P(Agreement, GivesUpEveryLinkButThoseOfATreeAndNeverTheLastPath) {
 
 // What makes two agreements at a time safe: the path of the first holds until its lease is over.
 TEST(LinkConsensus, WhoVouchesForABidVouchesForNoOtherBeforeItsLeaseIsOver) {
-  Robots_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}}, 1);
+  Robots_ net(Params{}, {{0, 0}, {0.5F, 0}, {1, 0}}, 1);
   for (int t = 0; t < 10; ++t) net.tick();
   State& middle = net.states[1];
   const auto hears = [&](Bid from_0, Bid from_2) {
     net.said[0].bid = from_0;
     net.said[2].bid = from_2;
-    std::vector<Heard> heard{{net.said.data(), {-1, 0}}, {&net.said[2], {1, 0}}};
-    return step(net.params, middle, {heard, {}, net.params}).message.bid;
+    std::vector<Heard> heard{{net.said.data(), {-0.5F, 0}}, {&net.said[2], {0.5F, 0}}};
+    return step(net.params, middle, {heard, {}, test_platform}).message.bid;
   };
   EXPECT_EQ(hears({0, 7, 160, 1, 5, 20}, {}), (Bid{0, 7, 160, 1, 4, 19}));
   for (int t = 18; t > 0; --t)
@@ -99,15 +99,15 @@ TEST(LinkConsensus, WhoVouchesForABidVouchesForNoOtherBeforeItsLeaseIsOver) {
 // A lease lasts as long for a robot whose steps are no whole ticks.
 TEST(LinkConsensus, ALeaseRunsOutByTheClockWhateverAStepLasts) {
   for (const float every : {0.3F, 1.0F, 1.4F, 1.6F, 2.5F}) {
-    Robots_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}}, 1);
+    Robots_ net(Params{}, {{0, 0}, {0.5F, 0}, {1, 0}}, 1);
     for (int t = 0; t < 10; ++t) net.tick();
     State& middle = net.states[1];
     const auto hears = [&](Bid from_0) {
       net.said[0].bid = from_0;
-      std::vector<Heard> heard{{net.said.data(), {-1, 0}}, {&net.said[2], {1, 0}}};
+      std::vector<Heard> heard{{net.said.data(), {-0.5F, 0}}, {&net.said[2], {0.5F, 0}}};
       Senses senses;
-      senses.elapsed_s = every * net.params.tick_s;
-      return step(net.params, middle, {heard, senses, net.params}).message.bid;
+      senses.elapsed_s = every * test_platform.tick_s;
+      return step(net.params, middle, {heard, senses, test_platform}).message.bid;
     };
     ASSERT_EQ(hears({0, 7, 160, 1, 5, 200}).lease_ticks, 199);
     const int steps = static_cast<int>(std::lround(140.0F / every));
@@ -117,13 +117,13 @@ TEST(LinkConsensus, ALeaseRunsOutByTheClockWhateverAStepLasts) {
 }
 
 TEST(LinkConsensus, ABidGoesNoFartherThanItsReachAndNotOverItsOwnLink) {
-  Robots_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}}, 1);
+  Robots_ net(Params{}, {{0, 0}, {0.5F, 0}, {1, 0}}, 1);
   for (int t = 0; t < 10; ++t) net.tick();
   const auto answers = [&](Bid bid) {
     State middle = net.states[1];
     net.said[0].bid = bid;
-    std::vector<Heard> heard{{net.said.data(), {-1, 0}}, {&net.said[2], {1, 0}}};
-    return step(net.params, middle, {heard, {}, net.params}).message;
+    std::vector<Heard> heard{{net.said.data(), {-0.5F, 0}}, {&net.said[2], {0.5F, 0}}};
+    return step(net.params, middle, {heard, {}, test_platform}).message;
   };
   EXPECT_EQ(answers({0, 7, 160, 1, 1, 20}).bid.owner, 0);
   EXPECT_EQ(answers({0, 7, 160, 1, 0, 20}).bid.owner, nobody);
@@ -135,16 +135,16 @@ TEST(LinkConsensus, ABidGoesNoFartherThanItsReachAndNotOverItsOwnLink) {
 TEST(LinkConsensus, KeepsRobotsTogetherThatWanderWithinTheirLinks) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     Draw draw(seed);
-    Robots_ net(Params{}, connected_places(24, 3.0, 1.1, draw), seed);
+    Robots_ net(Params{}, connected_places(24, 1.5, 0.55, draw), seed);
     std::vector<Vec2> course(24);
     std::size_t given_up = 0, links = 0;
     for (int t = 0; t < 900; ++t) {
       std::vector<Vec2> ways(24);
       for (std::size_t i = 0; i < 24; ++i) {
-        if (t % 40 == 0) course[i] = unit_vector(static_cast<float>(draw(-3.1, 3.1))) * 0.012F;
+        if (t % 40 == 0) course[i] = unit_vector(static_cast<float>(draw(-3.1, 3.1))) * 0.006F;
         ways[i] = course[i];
         for (std::size_t j = 0; j < 24; ++j)  // nobody outruns a link
-          if (net.states[i].links.find(static_cast<RobotId>(j)) >= 0 && distance(net.at[i] + ways[i], net.at[j]) > 1.8F)
+          if (net.states[i].links.find(static_cast<RobotId>(j)) >= 0 && distance(net.at[i] + ways[i], net.at[j]) > 0.9F)
             ways[i] = {};
       }
       net.tick(ways);
@@ -157,13 +157,13 @@ TEST(LinkConsensus, KeepsRobotsTogetherThatWanderWithinTheirLinks) {
 }
 
 TEST(LinkConsensus, ATriangleGivesUpItsLongestLinkWithinASecond) {
-  Robots_ net(Params{}, {{0, 0}, {1.0F, 0.05F}, {1.18F, 1.0F}}, 1);
-  net.at[2] = {0.5F, 0.9F};
+  Robots_ net(Params{}, {{0, 0}, {0.5F, 0.025F}, {0.59F, 0.5F}}, 1);
+  net.at[2] = {0.25F, 0.45F};
   for (int t = 0; t < 10; ++t) net.tick();
   const std::size_t before = kept_links(net);
   EXPECT_GE(before, 2U);
-  net.at[1] = {1.6F, 0.0F};  // 0-1 is 1.6 m long now, longer than nominate_distance
-  net.at[2] = {0.8F, 0.3F};
+  net.at[1] = {0.8F, 0.0F};  // 0-1 is 0.8 C long now, longer than nominate_distance
+  net.at[2] = {0.4F, 0.15F};
   for (int t = 0; t < 10; ++t) net.tick();
   EXPECT_FALSE(keep_each_other(net, 0, 1));
   EXPECT_TRUE(keep_each_other(net, 0, 2) && keep_each_other(net, 1, 2));
@@ -172,14 +172,14 @@ TEST(LinkConsensus, ATriangleGivesUpItsLongestLinkWithinASecond) {
 TEST(LinkConsensus, NewLinksAreThoseOfTheRelativeNeighborhoodGraph) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Draw draw(seed);
-    Robots_ net(Params{}, connected_places(25, 4.0, 1.1, draw), seed);
+    Robots_ net(Params{}, connected_places(25, 2.0, 0.55, draw), seed);
     for (int t = 0; t < 6; ++t) net.tick();
     for (std::size_t i = 0; i < 25; ++i)
       for (std::size_t j = 0; j < i; ++j) {
         const float d = distance(net.at[i], net.at[j]);
-        bool relative = d < net.params.add_distance_m;
+        bool relative = d < net.params.add_distance;
         for (std::size_t k = 0; k < 25; ++k)
-          if (k != i && k != j && std::max(distance(net.at[i], net.at[k]), distance(net.at[j], net.at[k])) < d - 1e-4F)
+          if (k != i && k != j && std::max(distance(net.at[i], net.at[k]), distance(net.at[j], net.at[k])) < d - 5e-5F)
             relative = false;
         EXPECT_EQ(keep_each_other(net, i, j), relative) << seed << ": " << i << "-" << j;
       }
@@ -187,12 +187,12 @@ TEST(LinkConsensus, NewLinksAreThoseOfTheRelativeNeighborhoodGraph) {
 }
 
 TEST(LinkConsensus, WhoIsCutOffIsLetInAgain) {
-  Robots_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}, {3, 0}}, 1);
+  Robots_ net(Params{}, {{0, 0}, {0.5F, 0}, {1, 0}, {1.5F, 0}}, 1);
   net.hidden = [](std::size_t i, std::size_t j) { return (i == 3) != (j == 3); };
   for (int t = 0; t < 40; ++t) net.tick();
   EXPECT_EQ(kept_parts(net), 2U);
   net.hidden = [](std::size_t, std::size_t) { return false; };
-  net.at[3] = {3.7F, 0.0F};  // too far for a new link between robots that are not cut off
+  net.at[3] = {1.85F, 0.0F};  // too far for a new link between robots that are not cut off
   for (int t = 0; t < 40; ++t) net.tick();
   EXPECT_EQ(kept_parts(net), 1U);
   EXPECT_EQ(net.states[3].root, 0);
@@ -200,8 +200,8 @@ TEST(LinkConsensus, WhoIsCutOffIsLetInAgain) {
 
 // Of the living the one with the smallest id, by everybody's belief.
 TEST(LinkConsensus, ASilentRootIsReplaced) {
-  Robots_ net(Params{}, {{5, 5}, {0, 0}, {1, 0}, {2, 0}, {3, 0}}, 1);
-  net.at[0] = {0.5F, 0.8F};
+  Robots_ net(Params{}, {{2.5F, 2.5F}, {0, 0}, {0.5F, 0}, {1, 0}, {1.5F, 0}}, 1);
+  net.at[0] = {0.25F, 0.4F};
   for (int t = 0; t < 30; ++t) net.tick();
   for (const State& s : net.states) EXPECT_EQ(s.root, 0);
   net.hidden = [](std::size_t i, std::size_t j) { return i == 0 || j == 0; };
@@ -214,12 +214,12 @@ TEST(LinkConsensus, ASilentRootIsReplaced) {
 
 // Silent for so long as the parameter says, and no longer.
 TEST(LinkConsensus, ASilentRootIsReplacedAfterItsSilence) {
-  for (const float silence_s : {3.0F, 10.0F}) {
-    Robots_ net(Params{}, {{0.5F, 0.8F}, {0, 0}, {1, 0}, {2, 0}, {3, 0}}, 1);
-    net.params.root_silence_s = silence_s;
+  for (const float silence : {30.0F, 100.0F}) {
+    Robots_ net(Params{}, {{0.25F, 0.4F}, {0, 0}, {0.5F, 0}, {1, 0}, {1.5F, 0}}, 1);
+    net.params.root_silence_rounds = silence;
     for (int t = 0; t < 30; ++t) net.tick();
     net.hidden = [](std::size_t i, std::size_t j) { return i == 0 || j == 0; };
-    const int silent = net.params.ticks(silence_s);
+    const int silent = whole(silence);
     for (int t = 0; t < silent; ++t) {
       net.tick();
       for (std::size_t i = 1; i < 5; ++i) EXPECT_EQ(net.states[i].root, 0) << "tick " << t;
@@ -227,18 +227,17 @@ TEST(LinkConsensus, ASilentRootIsReplacedAfterItsSilence) {
     for (int t = 0; t < 20; ++t) net.tick();
     std::uint32_t elections = 0;
     for (std::size_t i = 1; i < 5; ++i) {
-      EXPECT_EQ(net.states[i].root, 1) << i << ", after " << silence_s << " s and 20 ticks";
+      EXPECT_EQ(net.states[i].root, 1) << i << ", after " << silence << " rounds and 20 ticks";
       elections += net.states[i].tally.elections;
     }
     EXPECT_EQ(elections, 1U) << "by the robot with the smallest id and by nobody else";
   }
 }
 
-// The longest silence that may be asked for, with the shortest ticks: more than 32,768 of them.
+// A silence of more rounds than half of what a count goes round in, 32,768.
 TEST(LinkConsensus, TheLongestSilenceEnds) {
-  Robots_ net(Params{}, {{0.5F, 0.8F}, {0, 0}, {1, 0}}, 1);
-  net.params.tick_s = 0.01F;
-  net.params.root_silence_s = 600.0F;
+  Robots_ net(Params{}, {{0.25F, 0.4F}, {0, 0}, {0.5F, 0}}, 1);
+  net.params.root_silence_rounds = 60000.0F;
   for (int t = 0; t < 30; ++t) net.tick();
   net.hidden = [](std::size_t i, std::size_t j) { return i == 0 || j == 0; };
   for (int t = 0; t < 60000; ++t) net.tick();
@@ -251,7 +250,7 @@ TEST(LinkConsensus, TheLongestSilenceEnds) {
 // However long the root was away: its count has gone round the half of its numbers, and looks older than when it left.
 TEST(LinkConsensus, ALostRootThatComesBackIsFollowedAgain) {
   for (const int away : {200, 32000, 40000, 66000}) {
-    Robots_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}, {3, 0}}, 1);
+    Robots_ net(Params{}, {{0, 0}, {0.5F, 0}, {1, 0}, {1.5F, 0}}, 1);
     for (int t = 0; t < 30; ++t) net.tick();
     net.hidden = [](std::size_t i, std::size_t j) { return i == 0 || j == 0; };
     for (int t = 0; t < away; ++t) net.tick();
@@ -265,18 +264,18 @@ TEST(LinkConsensus, ALostRootThatComesBackIsFollowedAgain) {
 
 // What is counted is that a robot was cut off and is not any more.
 TEST(LinkConsensus, ARepairIsALinkThatWasTakenUp) {
-  Robots_ let_in(Params{}, {{0, 0}, {1, 0}, {2, 0}, {3, 0}}, 1);
+  Robots_ let_in(Params{}, {{0, 0}, {0.5F, 0}, {1, 0}, {1.5F, 0}}, 1);
   let_in.hidden = [](std::size_t i, std::size_t j) { return (i == 3) != (j == 3); };
   for (int t = 0; t < 40; ++t) let_in.tick();
   let_in.hidden = [](std::size_t, std::size_t) { return false; };
-  let_in.at[3] = {3.7F, 0.0F};
+  let_in.at[3] = {1.85F, 0.0F};
   for (int t = 0; t < 40; ++t) let_in.tick();
   EXPECT_EQ(let_in.states[3].tally.repairs, 1U);
 
   // The only robot that it hears has all the links that a robot can have.
   std::vector<Vec2> places{{0, 0}};
-  for (int i = 0; i < 12; ++i) places.push_back(unit_vector(0.5F * static_cast<float>(i)));
-  places.push_back({1.5F, 0.3F});
+  for (int i = 0; i < 12; ++i) places.push_back(unit_vector(0.5F * static_cast<float>(i)) * 0.5F);
+  places.push_back({0.75F, 0.15F});
   Robots_ refused(Params{}, places, 1);
   refused.hidden = [](std::size_t i, std::size_t j) { return i != 0 && j != 0; };
   for (int t = 0; t < 300; ++t) refused.tick();
@@ -284,12 +283,12 @@ TEST(LinkConsensus, ARepairIsALinkThatWasTakenUp) {
   EXPECT_EQ(refused.states[13].tally.repairs, 0U);
 }
 
-// Each a metre from the next.
+// Each half a C from the next.
 std::vector<Vec2> circle(std::size_t robots) {
   std::vector<Vec2> places;
   const float angle = 6.2831853F / static_cast<float>(robots);
   for (std::size_t i = 0; i < robots; ++i)
-    places.push_back(unit_vector(angle * static_cast<float>(i)) * (1.0F / angle));
+    places.push_back(unit_vector(angle * static_cast<float>(i)) * (0.5F / angle));
   return places;
 }
 
@@ -297,13 +296,13 @@ std::vector<Vec2> circle(std::size_t robots) {
 TEST(LinkConsensus, LongStepsGiveUpLinksToo) {
   for (const double every : {1.0, 3.0, 4.0, 8.0, 15.0}) {
     Robots_ net(Params{}, circle(7), 1);
-    net.params.liveness_period_s = 10.0F;
-    net.params.root_silence_s = 60.0F;
+    net.params.liveness_rounds = 100.0F;
+    net.params.root_silence_rounds = 600.0F;
     net.period.assign(net.at.size(), every);
     for (int t = 0; t < 60.0 * every; ++t) net.tick();
     ASSERT_GE(kept_links(net), 7U) << every;
-    net.params.add_distance_m = 0.1F;
-    net.params.nominate_distance_m = 0.11F;
+    net.params.add_distance = 0.05F;
+    net.params.nominate_distance = 0.055F;
     for (int t = 0; t < 300.0 * every; ++t) net.tick();
     EXPECT_EQ(kept_links(net), 6U) << "steps of " << every << " ticks";
   }
@@ -316,15 +315,16 @@ TEST(LinkConsensus, NoClockAndNoDelayMakesAnAgreementCutTheNetwork) {
   std::size_t given_up = 0, spare = 0;
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     Draw draw(seed);
-    Robots_ net(eager(), seed % 3 == 0 ? circle(12 + seed % 7) : connected_places(14, 3.0, 1.15, draw), seed);
+    Robots_ net(eager(), seed % 3 == 0 ? circle(12 + seed % 7) : connected_places(14, 1.5, 0.575, draw), seed);
     for (std::size_t i = 0; i < net.at.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
-        if (distance(net.at[i], net.at[j]) > 1.5F || net.states[i].links.full() || net.states[j].links.full()) continue;
+        if (distance(net.at[i], net.at[j]) > 0.75F || net.states[i].links.full() || net.states[j].links.full())
+          continue;
         net.states[i].links.offer(static_cast<RobotId>(j), false);
         net.states[j].links.offer(static_cast<RobotId>(i), false);
       }
-    net.params.liveness_period_s = 15.0F;
-    net.params.root_silence_s = 600.0F;
+    net.params.liveness_rounds = 150.0F;
+    net.params.root_silence_rounds = 6000.0F;
     net.states[0].root = nobody;  // no links are spared because they are somebody's way to a root: all are proposed
     net.states[0].way = not_rooted;
     for (int t = 0; t < 2; ++t) net.tick();
@@ -358,39 +358,39 @@ Vec2 velocity_of(Robots_& net, std::size_t i, std::optional<Vec2> target) {
   senses.orders = {target.has_value(), target};
   net.params.drive = Drive::holonomic;
   State s = net.states[i];
-  const Velocity v = step(net.params, s, {heard, senses, net.params}).velocity;
-  return {v.forward_m_s, v.sideways_m_s};
+  const Motion v = step(net.params, s, {heard, senses, test_platform}).motion;
+  return {v.forward, v.sideways};
 }
 
 TEST(LinkConsensus, AKeptLinkIsNotOutgrown) {
-  for (const float d : {1.7F, 1.85F, 1.9F}) {
-    Robots_ net(Params{}, {{0, 0}, {1, 0}}, 1);
+  for (const float d : {0.85F, 0.925F, 0.95F}) {
+    Robots_ net(Params{}, {{0, 0}, {0.5F, 0}}, 1);
     for (Vec2& f : net.facing) f = {1, 0};
     for (int t = 0; t < 10; ++t) net.tick();
     ASSERT_TRUE(keep_each_other(net, 0, 1));
     net.at[1] = {d, 0};
-    const Vec2 v = velocity_of(net, 0, Vec2{-5, 0});
-    EXPECT_GE(v.x, -0.5F * (1.9F - d) * net.params.guard_rate_per_s - 1e-5F) << d;
-    EXPECT_LE(std::fabs(v.x), 0.2F + 1e-6F);
+    const Vec2 v = velocity_of(net, 0, Vec2{-2.5F, 0});
+    EXPECT_GE(v.x, -0.5F * (0.95F - d) * net.params.guard_rate - 5e-5F) << d;
+    EXPECT_LE(std::fabs(v.x), 1.0F + 5e-6F);
   }
 }
 
 // (2): no force where phi is least, apart from there outwards if nearer, inwards if farther.
 TEST(LinkConsensus, ALinkRestsAtItsLeastPotential) {
-  const float rest_m = 1.9F / std::sqrt(2.0F);
-  for (const float off_m : {-0.3F, 0.0F, 0.3F}) {
-    Robots_ net(Params{}, {{0, 0}, {1, 0}}, 1);
+  const float rest = 0.95F / std::sqrt(2.0F);
+  for (const float off : {-0.15F, 0.0F, 0.15F}) {
+    Robots_ net(Params{}, {{0, 0}, {0.5F, 0}}, 1);
     for (Vec2& f : net.facing) f = {1, 0};
     for (int t = 0; t < 10; ++t) net.tick();
-    net.at[1] = {rest_m + off_m, 0};
+    net.at[1] = {rest + off, 0};
     const float v = velocity_of(net, 0, std::nullopt).x;
-    if (off_m == 0.0F) EXPECT_EQ(v, 0.0F);
-    else EXPECT_GT(v * off_m, 0.0F) << off_m;
+    if (off == 0.0F) EXPECT_EQ(v, 0.0F);
+    else EXPECT_GT(v * off, 0.0F) << off;
   }
 }
 
 TEST(LinkConsensus, NothingSensedMakesAVelocityInfinite) {
-  Robots_ net(Params{}, {{0, 0}, {1, 0}, {1, 1}}, 1);
+  Robots_ net(Params{}, {{0, 0}, {0.5F, 0}, {0.5F, 0.5F}}, 1);
   for (int t = 0; t < 10; ++t) net.tick();
   Message wild = net.said[1];
   wild.links.fill(0);

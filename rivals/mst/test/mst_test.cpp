@@ -20,19 +20,19 @@ namespace {
 using Swarm_ = Net<Robots>;
 using Pairs = std::set<std::pair<std::size_t, std::size_t>>;
 
-// Of all links that may be in a tree: those that leave room to move. Lengths are compared in millimetres.
+// Of all links that may be in a tree: those that leave room to move. Lengths are compared in C/2000.
 Pairs kruskal(const Swarm_& net) {
   struct Link {
-    int mm;
+    int steps;
     std::size_t i, j;
   };
   std::vector<Link> links;
   for (std::size_t i = 0; i < net.at.size(); ++i)
     for (std::size_t j = i + 1; j < net.at.size(); ++j)
-      if (const float d = distance(net.at[i], net.at[j]); net.hears(i, j) && d < 0.97F * net.params.longest_link_m)
-        links.push_back({static_cast<int>(std::lround(d * 1000.0F)), i, j});
+      if (const float d = distance(net.at[i], net.at[j]); net.hears(i, j) && d < 0.97F * net.params.longest_link)
+        links.push_back({static_cast<int>(std::lround(d * 2000.0F)), i, j});
   std::sort(links.begin(), links.end(),
-            [](const Link& a, const Link& b) { return std::tie(a.mm, a.i, a.j) < std::tie(b.mm, b.i, b.j); });
+            [](const Link& a, const Link& b) { return std::tie(a.steps, a.i, a.j) < std::tie(b.steps, b.i, b.j); });
   Components parts(net.at.size());
   Pairs tree;
   for (const Link& link : links)
@@ -74,17 +74,17 @@ bool all_done(const Swarm_& net) {
 
 struct Case {
   std::size_t robots;
-  double side_m;
+  double side;
   double loss;
   bool occluded;
 };
 class Tree : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(All, Tree,
-                         testing::Values(Case{2, 2.0, 0.0, false}, Case{10, 4.0, 0.0, false}, Case{30, 6.0, 0.0, false},
-                                         Case{30, 3.0, 0.3, false}, Case{60, 10.0, 0.0, false},
-                                         Case{40, 6.0, 0.2, true}));
+                         testing::Values(Case{2, 1.0, 0.0, false}, Case{10, 2.0, 0.0, false}, Case{30, 3.0, 0.0, false},
+                                         Case{30, 1.5, 0.3, false}, Case{60, 5.0, 0.0, false},
+                                         Case{40, 3.0, 0.2, true}));
 
-// Robots within 5 cm of the straight line between two others hide them from each other.
+// Robots within C/40 of the straight line between two others hide them from each other.
 void hide_behind_bodies(Swarm_& net) {
   net.hidden = [&net](std::size_t i, std::size_t j) {
     const Vec2 way = net.at[j] - net.at[i];
@@ -93,24 +93,24 @@ void hide_behind_bodies(Swarm_& net) {
       if (k == i || k == j) continue;
       const Vec2 to = net.at[k] - net.at[i];
       const float along = dot(to, way) / d;
-      if (along > 0.0F && along < d && std::fabs(cross(to, way)) / d < 0.05F) return true;
+      if (along > 0.0F && along < d && std::fabs(cross(to, way)) / d < 0.025F) return true;
     }
     return false;
   };
 }
 
 TEST_P(Tree, IsThatOfKruskalOverTheTrueGraph) {
-  const auto [robots, side_m, loss, occluded] = GetParam();
+  const auto [robots, side, loss, occluded] = GetParam();
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     Draw draw(seed);
-    Swarm_ net(Params{}, connected_places(robots, side_m, 1.4, draw), seed);
-    net.params.liveness_period_s = 3.0F;
+    Swarm_ net(Params{}, connected_places(robots, side, 0.7, draw), seed);
+    net.params.liveness_rounds = 30.0F;
     if (occluded) hide_behind_bodies(net);
     net.loss = loss;
     for (int t = 0; t < 1000 && !all_done(net); ++t) net.tick();
     ASSERT_TRUE(all_done(net)) << seed;
     const Pairs tree = kruskal(net);
-    EXPECT_EQ(kept(net), tree) << "seed " << seed << ": " << length_of(net, kept(net)) << " m instead of "
+    EXPECT_EQ(kept(net), tree) << "seed " << seed << ": " << length_of(net, kept(net)) << " C instead of "
                                << length_of(net, tree);
     EXPECT_EQ(kept(net, false), tree) << seed;
     for (int t = 0; t < 40; ++t) net.tick();
@@ -132,7 +132,7 @@ TEST(Mst, OneTreeFollowsTheOtherWithoutAGap) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     constexpr std::size_t n = 24;
     Draw draw(seed);
-    Swarm_ net(Params{}, connected_places(n, 3.0, 1.1, draw), seed);
+    Swarm_ net(Params{}, connected_places(n, 1.5, 0.55, draw), seed);
     std::vector<Vec2> course(n);
     for (int t = 0; t < 100; ++t) net.tick();
     ASSERT_TRUE(all_done(net));
@@ -140,7 +140,7 @@ TEST(Mst, OneTreeFollowsTheOtherWithoutAGap) {
     for (int t = 0; t < 1500; ++t) {
       std::vector<Vec2> ways(n);
       for (std::size_t i = 0; i < n; ++i) {
-        if (t % 50 == 0) course[i] = unit_vector(static_cast<float>(draw(-3.1, 3.1))) * 0.01F;
+        if (t % 50 == 0) course[i] = unit_vector(static_cast<float>(draw(-3.1, 3.1))) * 0.005F;
         ways[i] = course[i];
         const State& s = net.states[i];
         for (std::size_t j = 0; j < n; ++j) {
@@ -148,7 +148,7 @@ TEST(Mst, OneTreeFollowsTheOtherWithoutAGap) {
           const bool holds = s.tree.has(id) || s.old.has(id) || s.branches.has(id) ||
                              std::any_of(s.candidates.begin(), s.candidates.begin() + s.candidate_count,
                                          [&](const Candidate& c) { return c.to == id && c.narrow && !s.done; });
-          if (holds && distance(net.at[i] + ways[i], net.at[j]) > std::max(1.8F, distance(net.at[i], net.at[j])))
+          if (holds && distance(net.at[i] + ways[i], net.at[j]) > std::max(0.9F, distance(net.at[i], net.at[j])))
             ways[i] = {};
         }
       }
@@ -160,13 +160,13 @@ TEST(Mst, OneTreeFollowsTheOtherWithoutAGap) {
 }
 
 TEST(Mst, ALongEdgeTriggersANewTreeAndNothingElseDoes) {
-  Swarm_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}, {1.1F, 1.0F}}, 1);
+  Swarm_ net(Params{}, {{0, 0}, {0.5F, 0}, {1, 0}, {0.55F, 0.5F}}, 1);
   for (int t = 0; t < 60; ++t) net.tick();
   ASSERT_TRUE(all_done(net));
   const Serial first = net.states[0].tree_epoch;
   for (int t = 0; t < 300; ++t) net.tick();
   EXPECT_EQ(net.states[0].tree_epoch, first);
-  net.at[2] = {1.9F, 1.6F};  // 1-2 is longer than the trigger, 3-2 shorter
+  net.at[2] = {0.95F, 0.8F};  // 1-2 is longer than the trigger, 3-2 shorter
   for (int t = 0; t < 60; ++t) net.tick();
   EXPECT_EQ(net.states[0].tree_epoch, first + 1);
   EXPECT_EQ(kept(net), kruskal(net));
@@ -174,7 +174,7 @@ TEST(Mst, ALongEdgeTriggersANewTreeAndNothingElseDoes) {
 }
 
 TEST(Mst, AWorkerIsNeverRootAndADeadRootIsReplaced) {
-  Swarm_ net(Params{}, {{0, 0}, {1, 0}, {1.7F, 0.1F}, {3, 0}}, 1);
+  Swarm_ net(Params{}, {{0, 0}, {0.5F, 0}, {0.85F, 0.05F}, {1.5F, 0}}, 1);
   for (int t = 0; t < 80; ++t) net.tick();
   for (const State& s : net.states) EXPECT_EQ(s.root, 0);
   net.orders[0] = {true, Vec2{0.0F, 0.0F}};
@@ -186,7 +186,7 @@ TEST(Mst, AWorkerIsNeverRootAndADeadRootIsReplaced) {
 }
 
 TEST(Mst, TwoNetworksThatMeetBecomeOne) {
-  Swarm_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}, {3, 0}}, 1);
+  Swarm_ net(Params{}, {{0, 0}, {0.5F, 0}, {1, 0}, {1.5F, 0}}, 1);
   net.hidden = [](std::size_t i, std::size_t j) { return (i < 2) != (j < 2); };
   for (int t = 0; t < 120; ++t) net.tick();
   EXPECT_EQ(held_parts(net), 2U);
@@ -208,10 +208,10 @@ std::size_t one_sided(const Swarm_& net) {
 // One has built many more trees than the other: robot 3 stays too far from 2 for a while, which asks for trees.
 TEST(Mst, NetworksThatHaveBuiltDifferentNumbersOfTreesMeetAsQuickly) {
   for (const int long_for : {0, 200, 2000}) {
-    Swarm_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}, {3.7F, 0}}, 1);
+    Swarm_ net(Params{}, {{0, 0}, {0.5F, 0}, {1, 0}, {1.85F, 0}}, 1);
     net.hidden = [](std::size_t i, std::size_t j) { return (i < 2) != (j < 2); };
     for (int t = 0; t < 100 + long_for; ++t) net.tick();
-    net.at[3].x = 3.0F;
+    net.at[3].x = 1.5F;
     for (int t = 0; t < 100; ++t) net.tick();
     ASSERT_EQ(held_parts(net), 2U);
     const int apart = ahead_by(net.states[2].tree_epoch, net.states[0].tree_epoch);
@@ -232,10 +232,11 @@ TEST(Mst, NetworksThatMeetAtAnyMomentBecomeOneTree) {
   const int cases = long_search() ? 2000 : 40;
   for (int k = 0; k < cases; ++k) {
     const int moment = k % 40;
-    Swarm_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}, {6, 0.1F}, {7, 0}, {8, 0.2F}},
+    Swarm_ net(Params{},
+               {{0, 0}, {0.5F, 0}, {1, 0}, {1.5F, 0}, {2, 0}, {2.5F, 0}, {3.0F, 0.05F}, {3.5F, 0}, {4.0F, 0.1F}},
                static_cast<std::uint64_t>(k));
     net.loss = 0.2 * (moment % 2);
-    net.params.liveness_period_s = 3.0F;
+    net.params.liveness_rounds = 30.0F;
     net.hidden = [](std::size_t i, std::size_t j) { return i / 3 != j / 3; };
     for (std::size_t i = 3; i < 9; ++i) net.states[i].epoch = net.states[i].next = static_cast<Serial>(7 * (i / 3));
     for (std::size_t i = 3; i < 9; ++i) net.states[i].next = static_cast<Serial>(net.states[i].next + 1);
@@ -253,9 +254,9 @@ TEST(Mst, EndsThatDisagreeAboutLengthsFindATreeAllTheSame) {
   constexpr std::uint64_t seeds = 40;
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     Draw draw(seed);
-    Swarm_ net(Params{}, connected_places(24, 3.0, 1.2, draw), seed);
-    net.noise_m = 0.1;
-    net.params.build_timeout_s = 60.0F;
+    Swarm_ net(Params{}, connected_places(24, 1.5, 0.6, draw), seed);
+    net.noise_m = 0.05;
+    net.params.build_rounds = 600.0F;
     for (int t = 0; t < 500 && !all_done(net); ++t) net.tick();
     ASSERT_TRUE(all_done(net)) << seed;
     EXPECT_EQ(net.states[0].tree_epoch, 1) << seed;
@@ -269,8 +270,8 @@ TEST(Mst, EndsThatDisagreeAboutLengthsFindATreeAllTheSame) {
 TEST(Mst, ParentsLeadToTheRoot) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Draw draw(seed);
-    Swarm_ net(Params{}, connected_places(20, 4.0, 1.3, draw), seed);
-    for (std::size_t i = 0; i < seed % 5; ++i) net.orders[i] = {true, Vec2{0.1F, 0.0F}};
+    Swarm_ net(Params{}, connected_places(20, 2.0, 0.65, draw), seed);
+    for (std::size_t i = 0; i < seed % 5; ++i) net.orders[i] = {true, Vec2{0.05F, 0.0F}};
     for (int t = 0; t < 300; ++t) net.tick();
     ASSERT_TRUE(all_done(net)) << seed;
     for (std::size_t i = 0; i < net.states.size(); ++i) {
@@ -295,7 +296,7 @@ TEST(Mst, WhoHasNoRoomForAnotherEdgeIsNotPromisedOne) {
     std::vector<Vec2> places{{0, 0}};
     for (std::size_t i = 0; i < rays; ++i)
       places.push_back(unit_vector(6.28F * static_cast<float>(i) / static_cast<float>(rays)) *
-                       (1.0F + 0.01F * static_cast<float>(i)));
+                       (0.5F + 0.005F * static_cast<float>(i)));
     Swarm_ net(Params{}, places, 1);
     net.hidden = [](std::size_t i, std::size_t j) { return i != 0 && j != 0; };
     for (int t = 0; t < 300; ++t) net.tick();
@@ -313,19 +314,16 @@ TEST(Mst, WhoHasNoRoomForAnotherEdgeIsNotPromisedOne) {
 TEST(Mst, LengthsKeepTheirOrderWhateverTheRange) {
   for (const float range_m : {0.05F, 2.0F, 60.0F, 100.0F}) {
     const float r = 0.01F * range_m;
-    Params p;
-    p.communication_range_m = range_m;
-    p.longest_link_m *= range_m / 2.0F;
-    p.trigger_distance_m *= range_m / 2.0F;
     // 0-1 is the longest side of a triangle of which none is shorter than 0.8 C.
-    Swarm_ net(p, {{0, 0}, {90.0F * r, 0}, {45.0F * r, 68.0F * r}}, 1);
+    Swarm_ net(Params{}, {{0, 0}, {90.0F * r, 0}, {45.0F * r, 68.0F * r}}, 1);
+    net.platform.communication_range_m = range_m;
     for (int t = 0; t < 80; ++t) net.tick();
     EXPECT_EQ(kept(net), (Pairs{{0, 2}, {1, 2}})) << range_m;
   }
 }
 
 TEST(Mst, NothingSensedMakesAVelocityInfinite) {
-  Swarm_ net(Params{}, {{0, 0}, {1, 0}, {1, 1}}, 1);
+  Swarm_ net(Params{}, {{0, 0}, {0.5F, 0}, {0.5F, 0.5F}}, 1);
   for (int t = 0; t < 60; ++t) net.tick();
   Message wild = net.said[1];
   wild.branches.fill(0);

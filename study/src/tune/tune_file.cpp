@@ -92,14 +92,8 @@ class TuneFileReader {
   const ParameterInfo* searchable(const Place& place, const std::string& section, const std::string& name) {
     std::vector<std::string_view> known;
     for (const auto& info : algorithms_.parameters()) {
-      const auto owner = config::platform_key(info.key);
-      if (info.key == name && owner.empty()) return &info;
-      if (info.key == name) {
-        problems_.push_back(
-            {place, section + "." + name, "follows from the key " + std::string(owner) + " of the scenario"});
-        return nullptr;
-      }
-      if (owner.empty()) known.push_back(info.key);
+      if (info.key == name) return &info;
+      known.push_back(info.key);
     }
     std::string what = "there is no such parameter";
     if (const auto near = config::nearest(name, known); !near.empty())

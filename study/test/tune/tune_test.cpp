@@ -281,7 +281,7 @@ TEST_F(Tune, EveryFaultOfAFileHasItsLine) {
   expect_problem(file("", "target_gain = 1.0\n"), 8, "[lowest, highest]");
   expect_problem(file("", "target_gain = [0.1, 0.2, 0.3]\n"), 8, "[lowest, highest]");
   expect_problem(file("", "target_gian = [0.1, 1.0]\n"), 8, "did you mean target_gain");
-  expect_problem(file("", "communication_range_m = [1.0, 2.0]\n"), 8, "radio.range_m");
+  expect_problem(file("", "rnge = [1.0, 2.0]\n"), 8, "no such parameter");
   expect_problem(file("", ""), 7, "at least one parameter");
 
   expect_problem(file("", bounds, "training = \"1-5\"\ntest = \"5-9\"\n"), 5, "overlaps seeds.training (5)");
@@ -318,8 +318,8 @@ TEST_F(Tune, EveryFaultOfAFileHasItsLine) {
       "is not searched");
   expect_problem(file("", bounds, seeds, "[[worlds]]\nscenario = \"world.toml\"\n", "[initial]\nnonsense = 1.5\n"), 10,
                  "no such parameter");
-  expect_problem(file("", "safe_range_m = [0.5, 2.5]\n", seeds, "[[worlds]]\nscenario = \"world.toml\"\n",
-                      "[initial]\nsafe_range_m = 2.2\n"),
+  expect_problem(file("", "safe_range = [0.25, 1.0]\n", seeds, "[[worlds]]\nscenario = \"world.toml\"\n",
+                      "[initial]\nsafe_range = 0.99\n"),
                  9, "cannot be run");
   expect_problem("[[worlds]\n", 1, "");
 }
@@ -380,7 +380,7 @@ TEST_F(Tune, EveryAlgorithmCanBeTuned) {
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const double low = std::max(config::widened(rows[k]->minimum), 0.5 * config::widened(values[k])),
                    high = std::min(config::widened(rows[k]->maximum), 1.5 * config::widened(values[k]));
-      if (!config::platform_key(rows[k]->key).empty() || !(low < high)) continue;
+      if (!(low < high)) continue;
       bounds +=
           std::string(rows[k]->key) + " = [" + config::number_text(low) + ", " + config::number_text(high) + "]\n";
     }
@@ -448,21 +448,21 @@ TEST_F(Tune, AMissingFileIsAProblem) {
 }
 
 TEST_F(Tune, WarnsOfBoundsInWhichNothingRuns) {
-  const auto loaded = load(file("", "safe_range_m = [1.95, 2.5]\n"));  // S < delta = 1.9 is impossible
+  const auto loaded = load(file("", "safe_range = [0.96, 1.0]\n"));  // S < delta = 0.95 is impossible
   EXPECT_TRUE(loaded.ok());
   ASSERT_EQ(loaded.problems.size(), 1U);
   EXPECT_TRUE(loaded.problems[0].warning);
 }
 
 TEST_F(Tune, InfeasibilityGrowsWithTheDistance) {
-  const auto p = plan(file("", "recruitment_distance_m = [0.5, 3.0]\nsafe_range_m = [0.5, 3.0]\n"));
+  const auto p = plan(file("", "recruitment_distance = [0.25, 1.0]\nsafe_range = [0.25, 1.0]\n"));
   const auto at = [&](double e, double s) { return infeasibility(p, std::vector{e, s}); };
-  EXPECT_EQ(at(1.3, 1.4), 0.0);
-  EXPECT_GT(at(1.4, 1.4), 0.0);                // E < S is strict
-  EXPECT_NEAR(at(1.6, 1.4), 0.1 / 1.1, 1e-6);  // 0.2 m of C = 2 m too much
-  EXPECT_NEAR(at(2.4, 1.4), 0.5 / 1.5, 1e-6);
-  EXPECT_NEAR(at(1.0, 2.1), 0.1 / 1.1, 1e-6);  // S < delta = 1.9
-  EXPECT_LE(at(3.0, 0.5), 1.0);
+  EXPECT_EQ(at(0.65, 0.7), 0.0);
+  EXPECT_GT(at(0.7, 0.7), 0.0);                // E < S is strict
+  EXPECT_NEAR(at(0.8, 0.7), 0.1 / 1.1, 1e-6);  // 0.1 C too much
+  EXPECT_NEAR(at(1.0, 0.7), 0.3 / 1.3, 1e-6);
+  EXPECT_NEAR(at(0.5, 1.0), 0.05 / 1.05, 1e-6);  // S < delta = 0.95
+  EXPECT_LE(at(1.0, 0.25), 1.0);
 }
 
 // Also where the reason is another than the paper's chain of lengths, for whatever algorithm.
@@ -772,7 +772,7 @@ TEST_F(Tune, TheComparisonIsPartOfTheProgress) {
 
 TEST_F(Tune, WhatCannotBeRunOrWasSeenCostsNoRun) {
   const auto p = plan(file("population = 16\ngenerations = 6\nislands = 1\n",
-                           "safe_range_m = [0.5, 1.95]\nrecruitment_distance_m = [0.45, 1.9]\n"));
+                           "safe_range = [0.25, 0.975]\nrecruitment_distance = [0.225, 0.95]\n"));
   runs() = 0;
   const auto workers = thread_workers(bowl, 2);
   const auto result = tune(p, *workers, folder("out"));
@@ -782,7 +782,7 @@ TEST_F(Tune, WhatCannotBeRunOrWasSeenCostsNoRun) {
 }
 
 TEST_F(Tune, NothingThatRunsIsAnError) {
-  auto loaded = load(file(optimizer("sga", 1), "safe_range_m = [1.95, 2.5]\n"));
+  auto loaded = load(file(optimizer("sga", 1), "safe_range = [0.96, 1.0]\n"));
   ASSERT_TRUE(loaded.ok());
   const auto workers = thread_workers(bowl, 1);
   EXPECT_THROW((void)tune(loaded.plan, *workers, folder("out")), TuneError);

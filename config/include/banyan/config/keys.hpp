@@ -13,7 +13,6 @@
 
 namespace banyan::config {
 
-using world::platform_key;
 using world::Range;
 using world::range_text;
 

@@ -22,7 +22,7 @@ class Lasting {
   [[nodiscard]] double mean_charge() const noexcept { return mean_; }
   // A swap: a robot of the tree that had to leave became a spare. It is broken if meanwhile an edge to or from it, or
   // to or from the robot that takes its place, was broken: from the moment that robot joined, or the first at which the
-  // leaver is a spare, until a second after it.
+  // leaver is a spare, until a tenth of a drive after it.
   [[nodiscard]] std::uint64_t swaps() const noexcept { return swaps_; }
   [[nodiscard]] std::uint64_t broken_swaps() const noexcept { return broken_swaps_; }
   // A trip: a spare sets out to be charged, and is charged or dies. One that is called to the tree meanwhile makes

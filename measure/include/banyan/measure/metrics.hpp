@@ -75,9 +75,10 @@ struct Run {
   bool redundancy_exact = false;       // so many are enough
   std::uint32_t companions = 0;        // living spares that keep links, at the end
   double redundancy_ratio = 0.0;       // (committed + companions) / redundancy_bound
-  double redundant_time_ratio = -1.0;  // from 10 s after completion on, share of ticks with k paths; -1: k = 1, or none
-  std::uint64_t severed_ticks = 0;     // of these, in which living workers or the root were cut off from each other
-  double restored_s = -1.0;            // from the last death until there were k paths; -1: not, or k = 1
+  double redundant_time_ratio =
+      -1.0;                         // from a drive after completion on, share of ticks with k paths; -1: k = 1, or none
+  std::uint64_t severed_ticks = 0;  // of these, in which living workers or the root were cut off from each other
+  double restored_s = -1.0;         // from the last death until there were k paths; -1: not, or k = 1
   std::uint32_t redundant_targets = 0;  // at the end, active targets with k disjoint paths to the root; 0 for k = 1
   std::string single_targets;           // the others, by index, "0 3"
   double network_length_m =

@@ -41,8 +41,8 @@ class Observer {
 // ticks, and the start is none.
 [[nodiscard]] Tick at_start(const world::World& world, bool exact_fiedler = false);
 
-// For plots: whether lambda_2 itself is worth computing at this tick, the first of each simulated
-// second, in swarms of at most 1,000 robots (1 ms with 94, 10 ms with 1,000).
+// For plots: whether lambda_2 itself is worth computing at this tick, the first of each tenth
+// of a drive (world::drive_s), in swarms of at most 1,000 robots (1 ms with 94, 10 ms with 1,000).
 [[nodiscard]] bool is_plotted(const world::World& world) noexcept;
 
 }  // namespace banyan::measure

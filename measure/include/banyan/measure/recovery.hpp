@@ -6,24 +6,24 @@
 
 namespace banyan::measure {
 
-// A time in which the swarm stays whole counts as recovery if it begins within this time of the last
-// death and lasts for `recovery_hold_s`, or as long as the mission is to settle if that is longer.
-constexpr double recovery_limit_s = 200.0;
-constexpr double recovery_hold_s = 20.0;
+// A time in which the swarm stays whole counts as recovery if it begins within so many drives (world::drive_s) of the
+// last death and lasts for `recovery_hold_drives`, or as long as the mission is to settle if that is longer.
+constexpr double recovery_limit_drives = 20.0;
+constexpr double recovery_hold_drives = 2.0;
 
 // The caller decides what is whole. Time is counted in ticks, from the first observation after
 // the last death: a swarm that is whole then, and stays so, recovered in no time. Every further death
 // begins anew.
 class Recovery {
  public:
-  // `tick_s` > 0; `settle_s`: how long the mission is to settle.
-  explicit Recovery(double tick_s, double settle_s = 0.0);
+  // `tick_s`, `drive_s` > 0; `settle_s`: how long the mission is to settle.
+  Recovery(double tick_s, double drive_s, double settle_s = 0.0);
 
   // Call once per tick. `deaths`: since the start of the run, never falling.
   void observe(std::uint64_t deaths, bool whole);
 
   [[nodiscard]] bool recovered() const noexcept { return recovered_; }
-  // From the last death to the recovery, 0 to recovery_limit_s; -1: not recovered.
+  // From the last death to the recovery, 0 to recovery_limit_drives; -1: not recovered.
   [[nodiscard]] double time_s() const noexcept;
   // Nothing more can change unless a robot dies. True before the first death.
   [[nodiscard]] bool settled() const noexcept;

@@ -16,7 +16,7 @@ namespace banyan::measure {
 // dead and not replaced yet is left out. With one path it looks at nothing and costs nothing.
 class Redundancy {
  public:
-  // `paths`: k. What is counted begins 10 s after the first completion.
+  // `paths`: k. What is counted begins a drive (world::drive_s) after the first completion.
   explicit Redundancy(const world::World& world);
 
   // Once per tick. `completion_s`: when the run was first complete; negative: not yet.
@@ -38,6 +38,7 @@ class Redundancy {
   void build(const world::World& world);
 
   std::uint32_t wanted_;
+  double drive_s_;
   std::uint32_t paths_ = 0;
   std::uint64_t counted_ = 0, redundant_ = 0, severed_ = 0;
   std::uint64_t deaths_ = 0;

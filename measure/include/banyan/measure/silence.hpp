@@ -9,11 +9,11 @@
 
 namespace banyan::measure {
 
-// I of outwards (paper Table I), for algorithms that have no such parameter.
-constexpr double usual_liveness_period_s = 1.2;
+// I of outwards (paper Table I: 1.2 s at a tick of 0.1 s), for algorithms that have no such parameter.
+constexpr double usual_liveness_ticks = 12.0;
 
 // The liveness period I of the algorithm that runs in this world, after which a neighbour that was not heard counts as
-// gone: its parameter liveness_period_s, or usual_liveness_period_s.
+// gone: its parameter liveness_period_s, or usual_liveness_ticks.
 [[nodiscard]] double liveness_period_s(const world::World& world);
 
 // Counts, per pair of ends, the ticks in a row in which a tree edge between them had no radio link. A silence begins

@@ -21,7 +21,7 @@ struct Poses {
 };
 
 // Robots so near to each other that they could touch within the next tick: i < j, ascending. The
-// radio phase finds them on its way (distance < 2 radius + 4 wheel_limit tick + 1 cm).
+// radio phase finds them on its way (distance < 2 1/7 radius + 4 wheel_limit tick).
 using NearPairs = std::span<const std::pair<std::uint32_t, std::uint32_t>>;
 
 class Bodies {

@@ -60,7 +60,6 @@ struct Terms {
   std::string_view otherwise = "";   // what holds without it, if that is not a value
   std::string_view not_beside = "";  // a key of the same section: one of the two
   std::string_view selector = "";    // the path of the key that decides whether it applies, if not its section's
-  std::string_view parameter = "";   // of the controller, which follows from it
   bool only_in_files = false;        // its range: a program may go beyond it
 };
 

@@ -23,7 +23,6 @@ using Vec2 = BasicVec2<double>;
 struct Mission {
   std::string algorithm;              // a name in Scenario::algorithms
   std::string reading = "corrected";  // or "literal"
-  double scale = 1.0;                 // on Table I's lengths (paper Sec. IV-C, "rescaled")
   double target_tolerance_m = 0.20;
   double time_limit_s = 0.0;  // 0: 10 r / v_max, r the farthest target from the start's centre
   bool stop_when_complete = true;
@@ -47,7 +46,7 @@ struct Start {
 };
 
 struct SwarmModel {
-  std::optional<std::size_t> robots;  // none: from redundancy, ceil(k sum_i |p_i| / 1.540841) (protocol 2, row 10)
+  std::optional<std::size_t> robots;  // none: from redundancy, ceil(k sum_i |p_i| / redundancy_edge_m())
   double redundancy = 2.0;            // k
   Start start;
   std::optional<std::size_t> root;  // index; none: a random robot that is not a worker
@@ -263,6 +262,9 @@ struct Scenario {
 // Without the charging places.
 [[nodiscard]] std::vector<Vec2> mission_targets(const Scenario& scenario);
 
+// The edge by which swarm.redundancy counts: 0.7704205 C, which is delta of inwards (protocol 2, row 10).
+[[nodiscard]] double redundancy_edge_m(const Scenario& scenario) noexcept;
+
 // Number of robots: swarm.robots, or the paper's redundancy factor (protocol 2, row 10) of the mission's targets.
 // At least one more than targets and charging places.
 [[nodiscard]] std::size_t robot_count(const Scenario& scenario);
@@ -270,13 +272,19 @@ struct Scenario {
 // Between neighbours of the start; in a random one the least between any two robots.
 [[nodiscard]] double start_pitch_m(const Scenario& scenario);
 
+// A drive: the time in which a robot covers C at full speed, 10 s by default. What motion takes is counted in drives.
+[[nodiscard]] double drive_s(const Scenario& scenario) noexcept;
+
+// Times are multiples of ticks, each rounded: two that differ by no more than this are the same.
+[[nodiscard]] double time_rounding_s(const Scenario& scenario) noexcept;
+
 // mission.time_limit_s, or 10 r / v_max (paper Sec. IV-B).
 [[nodiscard]] double time_limit_s(const Scenario& scenario);
 
 // The one that mission.algorithm names.
 [[nodiscard]] const Algorithm& algorithm_of(const Scenario& scenario);
 
-// What the swarm is made for: reading, scale, mission.parameters, and the platform (range, tick, wheels, drive)
+// What the swarm is made for: reading, mission.parameters, and the platform (range, tick, wheels, drive)
 // from `robot`, `radio` and `tick_s`.
 [[nodiscard]] Setup setup_of(const Scenario& scenario);
 

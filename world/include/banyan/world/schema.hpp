@@ -68,7 +68,4 @@ template <class Owner>
   return get(key, owner);
 }
 
-// The key from which a parameter of the controller follows; "" if it is in [mission.parameters].
-[[nodiscard]] std::string_view platform_key(std::string_view parameter) noexcept;
-
 }  // namespace banyan::world
