@@ -99,20 +99,5 @@ TEST(Label, GrowsAlongEveryEdgeAndSaturates) {
   EXPECT_EQ(label_below(unknown_label - 1, 1.0F), unknown_label - 1);
 }
 
-// ---- paper ----
-
-// It waits although there may be nobody to wait for.
-TEST(LabelOfThePaper, WaitsForAnybody) {
-  Bench bench;
-  bench.state.epoch = 1;
-  bench.state.phase = Phase::start_tree;
-  bench.state.root = {1, 9};
-  bench.put(9, {0.95F, 0}).label = 0;
-  bench.steps(6);
-  EXPECT_EQ(bench.state.label, unknown_label);
-  bench.step();
-  EXPECT_EQ(bench.state.label, 243);
-}
-
 }  // namespace
 }  // namespace banyan
