@@ -43,7 +43,7 @@ void add_semantic_problems(const Configuration& configuration, const ScenarioRea
   for (const auto& fault : semantic_faults(configuration.scenario, reader)) {
     // Defaults stand in for what could not be read, so warnings would be meaningless.
     if (reader.faulty(fault.key) || (broken && fault.warning)) continue;
-    problems.push_back({reader.place_of(fault.key), fault.key, fault.text, fault.warning});
+    problems.push_back({reader.place_of(fault), fault.key, fault.text, fault.warning});
   }
 }
 

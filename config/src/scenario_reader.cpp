@@ -102,6 +102,19 @@ Place ScenarioReader::place_of(std::string key) const {
   }
 }
 
+Place ScenarioReader::place_of(const world::Fault& fault) const {
+  std::vector<std::string> keys{fault.key};
+  keys.insert(keys.end(), fault.with.begin(), fault.with.end());
+  std::optional<Place> first;
+  for (const std::string& key : keys) {
+    const auto found = places_.find(key);
+    if (found == places_.end()) continue;
+    if (!found->second.from_file()) return found->second;
+    if (!first) first = found->second;
+  }
+  return first ? *first : place_of(fault.key);
+}
+
 bool ScenarioReader::faulty(const std::string& key) const {
   const auto at = faulty_.lower_bound(key);
   return at != faulty_.end() && at->starts_with(key);

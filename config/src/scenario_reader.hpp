@@ -12,6 +12,7 @@
 
 #include "banyan/config/document.hpp"
 #include "banyan/config/keys.hpp"
+#include "banyan/world/faults.hpp"
 
 namespace banyan::config {
 
@@ -23,6 +24,8 @@ class ScenarioReader {
   [[nodiscard]] Configuration read(const Node& root);
   // Where a key was written, or else the nearest section around it.
   [[nodiscard]] Place place_of(std::string key) const;
+  // Of the keys that it is about, where the one stands that a command line option sets; else the first that is written.
+  [[nodiscard]] Place place_of(const world::Fault& fault) const;
   // Whether a problem was already reported about the key or a part of it.
   [[nodiscard]] bool faulty(const std::string& key) const;
 

@@ -186,6 +186,7 @@ seed = 9007199254740992
 tick_s = 0.05
 [mission]
 algorithm = "inwards"
+target_tolerance_m = 0.2
 [mission.parameters]
 clearance = 0.02
 target_gain = 0.25
@@ -195,11 +196,16 @@ root = 2
 layout = "list"
 positions_m = [[0, 0], [0.5, 0.0], [0, 0.5], [0.5, 0.5], [1, 1]]
 headings_deg = [0, 90.0, 180, -90, 33.3]
+[robot]
+wheel_distance_m = 0.1054
+max_acceleration_m_s2 = 1
+proximity_m = 0.3
 [radio]
 bearing_noise_deg = 1.7
 [targets]
 layout = "random"
 count = 2
+radius_m = 3
 center_m = [0.1, 0.2]
 [[obstacles]]
 kind = "disc"
@@ -320,6 +326,7 @@ TEST(Write, WhatNeedNotBeSaidIsLeftOut) {
   EXPECT_FALSE(written(small + "[swarm]\nrobots = 9\n")["swarm"].contains("redundancy"));
   EXPECT_EQ(written(small)["events"], json::array());
   EXPECT_EQ(written(small)["mission"]["parameters"], json::object());
+  EXPECT_FALSE(written(small)["mission"].contains("target_tolerance_m")) << "it follows from C and the body";
 }
 
 // As many robots and targets as there may be, with all their digits: read_text_file() takes 8 MiB.

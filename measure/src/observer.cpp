@@ -312,7 +312,7 @@ double network_length_m(const world::World& world) {
 
 Observer::Impl::Impl(const world::World& world)
     : range_m(world.scenario().radio.range_m),
-      tolerance_m(world.scenario().mission.target_tolerance_m),
+      tolerance_m(world::target_tolerance_m(world.scenario())),
       stop_when_complete(world.scenario().mission.stop_when_complete),
       settle_s(world.scenario().mission.settle_s),
       time_rounding_s(world::time_rounding_s(world.scenario())),

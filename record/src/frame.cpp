@@ -128,7 +128,7 @@ Setting setting_of(const world::World& world) {
   setting.line_of_sight = world.line_of_sight();
   setting.sight_leak = scenario.radio.sight_leak;
   setting.dead_bodies = scenario.robot.dead_bodies;
-  setting.target_tolerance_m = scenario.mission.target_tolerance_m;
+  setting.target_tolerance_m = world::target_tolerance_m(scenario);
   setting.time_limit_s = world::time_limit_s(scenario);
   setting.obstacles.assign(world.obstacles().begin(), world.obstacles().end());
   return setting;

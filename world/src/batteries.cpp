@@ -11,7 +11,8 @@ namespace banyan::world {
 Batteries::Batteries(const Scenario& scenario, std::size_t robots)
     : model_(scenario.battery),
       holonomic_(scenario.robot.body == BodyModel::linear),
-      wheel_distance_m_(scenario.robot.wheel_distance_m),
+      reach_m_(charging_reach_m(scenario)),
+      wheel_distance_m_(wheel_distance_m(scenario)),
       wheel_limit_m_s_(scenario.robot.wheel_limit_m_s) {
   if (!on()) return;
   places_.assign(robots, -1);
@@ -45,7 +46,7 @@ double Batteries::drawn_per_s(const Velocity& motion) const noexcept {
 // A robot keeps its slot until it is full or leaves; a free slot goes to the emptiest robot in reach, then to the
 // first.
 void Batteries::give_slots(std::span<const Vec2> positions, std::span<const std::uint8_t> alive) {
-  const double reach2 = model_.reach_m * model_.reach_m;
+  const double reach2 = reach_m_ * reach_m_;
   for (std::size_t p = 0; p < model_.places.size(); ++p) {
     const auto place = static_cast<std::int32_t>(p);
     const auto in_reach = [&](std::size_t i) {

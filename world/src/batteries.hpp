@@ -35,6 +35,7 @@ class Batteries {
 
   Battery model_;
   bool holonomic_ = false;
+  double reach_m_ = 0.0;
   double wheel_distance_m_ = 0.0;
   double wheel_limit_m_s_ = 0.0;
   std::vector<double> levels_;

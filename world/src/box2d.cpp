@@ -10,7 +10,8 @@
 // each tick instead of being carried over.
 //
 // Lengths are scaled by 8 inside: Box2D keeps a slop of 5 mm and a skin of 10 mm, which would
-// show on a robot of 70 mm. A power of two, so that poses are converted without rounding.
+// show on a robot of 70 mm. A power of two, so that poses are converted without rounding. These
+// metres stay, and so do masses, forces and the length of a sub-step: a world with this body has a scale.
 #include <box2d/box2d.h>
 
 #include <algorithm>
@@ -78,6 +79,7 @@ class Box2d final : public Bodies {
  public:
   Box2d(const Scenario& scenario, std::size_t robots)
       : robot_{scenario.robot},
+        wheel_distance_m_{wheel_distance_m(scenario)},
         obstacles_{scenario.obstacles},
         seed_{scenario.seed},
         momentum_(robots),
@@ -100,7 +102,8 @@ class Box2d final : public Bodies {
     b2World world({0.0F, 0.0F});
     build(world, poses);
     const std::span<Path> path(path_);
-    for (std::size_t i = 0; i < path.size(); ++i) path[i] = {wheel_twist(robot_, command[i], seed_, i, tick)};
+    for (std::size_t i = 0; i < path.size(); ++i)
+      path[i] = {wheel_twist(robot_, wheel_distance_m_, command[i], seed_, i, tick)};
     for (int s = 0; s < substeps_; ++s) {
       for (std::size_t i = 0; i < path.size(); ++i)
         if (gone_[i] == 0) drive(*body_[i], path[i].wheels, poses.heading[i]);
@@ -191,6 +194,7 @@ class Box2d final : public Bodies {
   }
 
   RobotModel robot_;
+  double wheel_distance_m_;
   std::vector<Obstacle> obstacles_;
   std::uint64_t seed_;
   int substeps_ = 1;

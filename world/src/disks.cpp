@@ -18,7 +18,11 @@ constexpr double beyond_touching = 1e-6 / 0.0704;
 class Disks final : public Bodies {
  public:
   explicit Disks(const Scenario& scenario)
-      : robot_(scenario.robot), obstacles_(scenario.obstacles), tick_s_(scenario.tick_s), seed_(scenario.seed) {}
+      : robot_(scenario.robot),
+        wheel_distance_m_(wheel_distance_m(scenario)),
+        obstacles_(scenario.obstacles),
+        tick_s_(scenario.tick_s),
+        seed_(scenario.seed) {}
 
   [[nodiscard]] std::unique_ptr<Bodies> clone() const override { return std::make_unique<Disks>(*this); }
 
@@ -44,7 +48,7 @@ class Disks final : public Bodies {
  private:
   void roll(std::size_t i, const Velocity& command, std::uint64_t tick, Poses& poses,
             Odometry& odometry) const noexcept {
-    const Twist twist = wheel_twist(robot_, command, seed_, i, tick);
+    const Twist twist = wheel_twist(robot_, wheel_distance_m_, command, seed_, i, tick);
     const double arc_m = twist.forward_m_s * tick_s_;
     const double turn = twist.turn_rad_s * tick_s_;
     const Vec2 half = unit_vector(0.5 * turn);
@@ -78,6 +82,7 @@ class Disks final : public Bodies {
   }
 
   RobotModel robot_;
+  double wheel_distance_m_;
   std::vector<Obstacle> obstacles_;
   double tick_s_;
   std::uint64_t seed_;

@@ -84,7 +84,7 @@ std::optional<std::size_t> World::Impl::holder(std::size_t target) const noexcep
   for (std::size_t i = 0; i < alive.size(); ++i) {
     if (alive[i] == 0 || reports[i].role != Role::worker || reports[i].serves != static_cast<RobotId>(first)) continue;
     const double away_m = distance(poses.position[i], position);
-    if (away_m > scenario.mission.target_tolerance_m || (best && away_m >= best_m)) continue;
+    if (away_m > target_tolerance_m(scenario) || (best && away_m >= best_m)) continue;
     best = i;
     best_m = away_m;
   }

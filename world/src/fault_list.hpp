@@ -26,8 +26,10 @@ namespace banyan::world {
 
 class FaultList {
  public:
-  void fail(std::string key, std::string text) { list_.push_back({std::move(key), std::move(text), false}); }
-  void warn(std::string key, std::string text) { list_.push_back({std::move(key), std::move(text), true}); }
+  void fail(std::string key, std::string text, std::vector<std::string> with = {}) {
+    list_.push_back({std::move(key), std::move(text), false, std::move(with)});
+  }
+  void warn(std::string key, std::string text) { list_.push_back({std::move(key), std::move(text), true, {}}); }
   // A list of `n` entries has at least one and not too many.
   void check_length(const std::string& key, std::size_t n, std::size_t most) {
     if (n < 1 || n > most) fail(key, "must have 1 to " + std::to_string(most) + " entries, not " + std::to_string(n));

@@ -174,14 +174,16 @@ void check_proportions(FaultList& list, const Scenario& scenario) {
                   short_text(range) + " / (" + short_text(scenario.robot.wheel_limit_m_s) + " * " +
                   short_text(scenario.tick_s) + ") = " + short_text(ticks) + " ticks, which must be 25 to 2000; " +
                   (least_s <= most_s ? "set tick_s to " + short_text(least_s) + " to " + short_text(most_s) + " s"
-                                     : "set radio.range_m or robot.wheel_limit_m_s, no tick_s fits these"));
+                                     : "set radio.range_m or robot.wheel_limit_m_s, no tick_s fits these"),
+              {"radio.range_m", "robot.wheel_limit_m_s"});
   }
   const double share = scenario.robot.radius_m / range;
   if (share < thinnest * (1.0 - rounding) || share > widest * (1.0 + rounding))
     list.fail("robot.radius_m", "is " + short_text(scenario.robot.radius_m) + " m, " + short_text(share) +
                                     " of radio.range_m = " + short_text(range) +
                                     " m; must be 0.001 to 0.17 of it, here " + short_text(thinnest * range) + " to " +
-                                    short_text(widest * range) + " m");
+                                    short_text(widest * range) + " m",
+              {"radio.range_m"});
 }
 
 // mission.time_limit_s, as it is given or as it follows.
@@ -195,6 +197,14 @@ void check_time_limit(FaultList& list, const Scenario& scenario) {
                 : "must be given when no target is away from swarm.start.center_m");
 }
 
+// The keys of the scenario's own parameters that the text names.
+std::vector<std::string> parameters_in(const std::string& text, const Scenario& scenario) {
+  std::vector<std::string> keys;
+  for (const auto& [name, value] : scenario.mission.parameters)
+    if (text.find(name) != std::string::npos) keys.push_back("mission.parameters." + name);
+  return keys;
+}
+
 void check_platform(FaultList& list, const Scenario& scenario) {
   const double reach = scenario.robot.wheel_limit_m_s * scenario.tick_s;
   if (!scenario.obstacles.empty() && reach >= scenario.robot.radius_m)
@@ -205,7 +215,7 @@ void check_platform(FaultList& list, const Scenario& scenario) {
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
     check_obstacle_body(list, scenario, element("obstacles", i) + ".size_m", scenario.obstacles[i]);
   if (const std::string text = algorithm_of(scenario).fault(setup_of(scenario)); !text.empty())
-    list.fail("mission.parameters", text);
+    list.fail("mission.parameters", text, parameters_in(text, scenario));
   if (scenario.mission.link_redundancy > 1 && !algorithm_of(scenario).knows_redundancy())
     list.fail("mission.link_redundancy", "is " + std::to_string(scenario.mission.link_redundancy) + ", but " +
                                              scenario.mission.algorithm + " keeps one path" +
@@ -304,17 +314,20 @@ void check_spacing(FaultList& list, const Scenario& scenario) {
   const bool random = start.layout == Layout::random;
   const std::string key = start.pitch_share ? "swarm.start.pitch_share" : "swarm.start.pitch_m";
   const std::string jitter = random ? "" : " 2 jitter_m";
-  const double off = random ? 0.0 : 2.0 * start.jitter_m;
+  const double off = random ? 0.0 : 2.0 * start_jitter_m(scenario);
   const double range = scenario.radio.range_m;
   const double touch = 2.0 * scenario.robot.radius_m;
   const double pitch = start_pitch_m(scenario);
   const double link = start.link_share * range;
   if (pitch - off < touch)
     list.fail(key, "robots do not fit: " + (random ? "the pitch" : "pitch_m -" + jitter) + " = " +
-                       short_text(pitch - off) + " m must be at least two radii, " + short_text(touch) + " m");
+                       short_text(pitch - off) + " m must be at least two radii, " + short_text(touch) + " m",
+              {"robot.radius_m"});
   if (!random && pitch + off >= range)
-    list.fail(key, "the start would not be connected: pitch_m +" + jitter + " = " + short_text(pitch + off) +
-                       " m must be below radio.range_m = " + short_text(range) + " m");
+    list.fail(key,
+              "the start would not be connected: pitch_m +" + jitter + " = " + short_text(pitch + off) +
+                  " m must be below radio.range_m = " + short_text(range) + " m",
+              {"radio.range_m"});
   if (!random && start.layout != Layout::bridge) return;
   if (link + off >= range)
     list.fail("swarm.start.link_share", "the start would not be connected: link_share * range_m" +
@@ -388,7 +401,7 @@ void check_targets_fit(FaultList& list, const Scenario& scenario) {
     check_target_room(list, scenario, scenario.obstacles, target_key(scenario, i), "target " + std::to_string(i),
                       targets[i]);
   if (!check_events_fit(list, scenario, targets.size(), robots)) return;
-  const std::size_t needed = least_robots(targets, scenario.mission.target_tolerance_m, scenario.radio.range_m);
+  const std::size_t needed = least_robots(targets, target_tolerance_m(scenario), scenario.radio.range_m);
   if (needed > robots)
     list.warn("targets", "out of reach: no connected network of fewer than " + std::to_string(needed) +
                              " robots spans the targets at radio.range_m = " + short_text(scenario.radio.range_m) +
@@ -423,7 +436,7 @@ void check_target_room(FaultList& list, const Scenario& scenario, const std::vec
   const double room = clearance(obstacles, p);
   if (room <= 0.0) {
     list.fail(key, name + " at " + at(p) + " lies inside an obstacle");
-  } else if (room + scenario.mission.target_tolerance_m < scenario.robot.radius_m) {
+  } else if (room + target_tolerance_m(scenario) < scenario.robot.radius_m) {
     list.fail(key, name + " at " + at(p) + " is so close to an obstacle that no robot of radius " +
                        short_text(scenario.robot.radius_m) + " m gets within mission.target_tolerance_m of it");
   }

@@ -58,6 +58,7 @@ class Linear final : public Bodies {
       : robot_{scenario.robot},
         obstacles_{scenario.obstacles},
         seed_{scenario.seed},
+        max_acceleration_m_s2_{max_acceleration_m_s2(scenario)},
         h_{scenario.tick_s},
         a_{{{1, 0, h_, 0}, {0, 1, 0, h_}, {0, 0, 1, 0}, {0, 0, 0, 1}}},
         b_{{{0, 0, h_ * h_ / 2, 0}, {0, 0, 0, h_ * h_ / 2}, {0, 0, h_, 0}, {0, 0, 0, h_}}},
@@ -92,7 +93,7 @@ class Linear final : public Bodies {
   // x(t+1) = A x(t) + B u(t), then the obstacles. v stays within its bound because both v and the
   // commanded velocity do and the new one lies between them.
   void move(Vec2& p, Vec2& v, Vec2 commanded) const noexcept {
-    const Vec2 a = shortened((shortened(commanded, robot_.wheel_limit_m_s) - v) / h_, robot_.max_acceleration_m_s2);
+    const Vec2 a = shortened((shortened(commanded, robot_.wheel_limit_m_s) - v) / h_, max_acceleration_m_s2_);
     const StateVector drift = a_ * StateVector{p.x, p.y, v.x, v.y};
     const StateVector control = b_ * StateVector{0.0, 0.0, a.x, a.y};
     p = {drift[0] + control[0], drift[1] + control[1]};
@@ -109,6 +110,7 @@ class Linear final : public Bodies {
   RobotModel robot_;
   std::vector<Obstacle> obstacles_;
   std::uint64_t seed_;
+  double max_acceleration_m_s2_;
   double h_;
   Matrix a_, b_;
   std::vector<Vec2> velocity_;

@@ -44,7 +44,7 @@ Poses place(const Scenario& scenario) {
   poses.position = list ? start.positions : start_points(scenario);
   poses.heading.reserve(poses.position.size());
   for (std::size_t i = 0; i < poses.position.size(); ++i) {
-    if (!exact) poses.position[i] += jitter(scenario.seed, i, start.jitter_m);
+    if (!exact) poses.position[i] += jitter(scenario.seed, i, start_jitter_m(scenario));
     const bool given = list && i < start.headings_rad.size();
     poses.heading.push_back(given ? unit_vector(start.headings_rad[i]) : random_heading(scenario.seed, i));
   }

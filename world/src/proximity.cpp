@@ -53,7 +53,7 @@ class Proximity::Nearest {
 };
 
 Proximity::Proximity(const Scenario& scenario)
-    : reach_m_(scenario.robot.proximity_m),
+    : reach_m_(proximity_m(scenario)),
       radius_m_(scenario.robot.radius_m),
       sees_dead_(scenario.robot.dead_bodies && reach_m_ > 0.0) {
   set_obstacles(scenario.obstacles);

@@ -18,7 +18,7 @@ class Proximity {
   static constexpr std::size_t capacity = 8;  // what is farther than the nearest eight goes unseen
   using Seen = std::array<banyan::Vec2, capacity>;
 
-  // Reach: scenario.robot.proximity_m from the robot's centre to the nearest point of a surface.
+  // Reach: proximity_m(scenario) from the robot's centre to the nearest point of a surface.
   explicit Proximity(const Scenario& scenario);
 
   // From now on these are the obstacles.

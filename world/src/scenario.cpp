@@ -13,6 +13,9 @@
 namespace banyan::world {
 namespace {
 
+constexpr double khepera_radius_m = 0.0704;
+constexpr double khepera_ranges = 2.0 / khepera_radius_m;  // radii in C = 2 m
+
 struct TargetPositions {
   const Scenario& scenario;
   std::vector<Vec2> operator()(const std::vector<Vec2>& list) const { return list; }
@@ -20,7 +23,7 @@ struct TargetPositions {
     std::vector<Vec2> positions;
     for (std::size_t i = 0; i < ring.count; ++i) {
       const double turn = 2.0 * pi<double> * (static_cast<double>(i) / static_cast<double>(ring.count));
-      positions.push_back(ring.center + ring.radius_m * unit_vector(ring.phase_rad + turn));
+      positions.push_back(ring.center + radius_m(ring) * unit_vector(ring.phase_rad + turn));
     }
     return positions;
   }
@@ -29,13 +32,16 @@ struct TargetPositions {
     for (std::size_t i = 0; i < random.count; ++i) positions.push_back(draw(random, i));
     return positions;
   }
+  template <class Around> [[nodiscard]] double radius_m(const Around& targets) const {
+    return targets.radius_m.value_or(1.5 * scenario.radio.range_m);
+  }
   // A draw in an obstacle is repeated; when obstacles cover everything, faults() sees the last one.
   [[nodiscard]] Vec2 draw(const RandomTargets& random, std::size_t i) const {
     Vec2 p{};
     for (std::uint64_t attempt = 0; attempt < 1000; ++attempt) {
       const double u = to_uniform(bits(scenario.seed, Purpose::targets, i, 2 * attempt));
       const double v = to_uniform(bits(scenario.seed, Purpose::targets, i, 2 * attempt + 1));
-      p = random.center + random.radius_m * std::sqrt(0.1 + 0.9 * u) * unit_vector(2.0 * pi<double> * v);
+      p = random.center + radius_m(random) * std::sqrt(0.1 + 0.9 * u) * unit_vector(2.0 * pi<double> * v);
       if (clearance(scenario.obstacles, p) >= scenario.robot.radius_m) break;
     }
     return p;
@@ -91,9 +97,33 @@ std::size_t robot_count(const Scenario& scenario) {
   return std::max(robots_for(swarm.redundancy * length / redundancy_edge_m(scenario)), targets.size() + places + 1);
 }
 
-double start_pitch_m(const Scenario& scenario) {
+double length_scale_m(const Scenario& scenario) noexcept {
+  return std::max(scenario.radio.range_m, khepera_ranges * scenario.robot.radius_m);
+}
+
+double start_pitch_m(const Scenario& scenario) noexcept {
   const Start& start = scenario.swarm.start;
-  return start.pitch_share ? *start.pitch_share * scenario.radio.range_m : start.pitch_m;
+  if (start.pitch_share) return *start.pitch_share * scenario.radio.range_m;
+  return start.pitch_m.value_or(0.16 * length_scale_m(scenario));
+}
+double start_jitter_m(const Scenario& scenario) noexcept {
+  return scenario.swarm.start.jitter_m.value_or(0.01 * length_scale_m(scenario));
+}
+double target_tolerance_m(const Scenario& scenario) noexcept {
+  return scenario.mission.target_tolerance_m.value_or(0.1 * length_scale_m(scenario));
+}
+double proximity_m(const Scenario& scenario) noexcept {
+  return scenario.robot.proximity_m.value_or(0.15 * length_scale_m(scenario));
+}
+double charging_reach_m(const Scenario& scenario) noexcept {
+  return scenario.battery.reach_m.value_or(0.3 * length_scale_m(scenario));
+}
+double wheel_distance_m(const Scenario& scenario) noexcept {
+  return scenario.robot.wheel_distance_m.value_or(0.1054 * (scenario.robot.radius_m / khepera_radius_m));
+}
+double max_acceleration_m_s2(const Scenario& scenario) noexcept {
+  const double fastest = scenario.robot.wheel_limit_m_s;
+  return scenario.robot.max_acceleration_m_s2.value_or(50.0 * fastest * (fastest / scenario.radio.range_m));
 }
 
 // The most steps of the swarm between composing and hearing a packet: it travels, and waits until its receiver
@@ -136,11 +166,11 @@ Setup setup_of(const Scenario& scenario) {
   setup.platform.line_of_sight = scenario.radio.line_of_sight;
   setup.platform.tick_s = static_cast<float>(scenario.tick_s);
   setup.platform.wheel_limit_m_s = static_cast<float>(scenario.robot.wheel_limit_m_s);
-  setup.platform.wheel_distance_m = static_cast<float>(scenario.robot.wheel_distance_m);
+  setup.platform.wheel_distance_m = static_cast<float>(wheel_distance_m(scenario));
   setup.platform.body_radius_m = static_cast<float>(scenario.robot.radius_m);
   setup.platform.drive = scenario.robot.body == BodyModel::linear ? Drive::holonomic : Drive::differential;
   setup.platform.battery = scenario.battery.on();
-  setup.arrival_distance_m = scenario.mission.target_tolerance_m;
+  setup.arrival_distance_m = target_tolerance_m(scenario);
   setup.link_redundancy = static_cast<int>(scenario.mission.link_redundancy);
   setup.parameters = scenario.mission.parameters;
   setup.history = longest_way(scenario);

@@ -68,11 +68,13 @@ bool is_listed(const Scenario& s) noexcept { return s.swarm.start.layout == Layo
 double* redundancy_of(Scenario& s) noexcept { return is_listed(s) ? nullptr : &s.swarm.redundancy; }
 bool is_bridge(const Scenario& s) noexcept { return s.swarm.start.layout == Layout::bridge; }
 bool is_random(const Scenario& s) noexcept { return s.swarm.start.layout == Layout::random; }
-double* pitch_of(Scenario& s) noexcept { return is_listed(s) ? nullptr : &s.swarm.start.pitch_m; }
+std::optional<double>* pitch_of(Scenario& s) noexcept { return is_listed(s) ? nullptr : &s.swarm.start.pitch_m; }
 std::optional<double>* pitch_share_of(Scenario& s) noexcept {
   return is_listed(s) ? nullptr : &s.swarm.start.pitch_share;
 }
-double* jitter_of(Scenario& s) noexcept { return is_listed(s) || is_random(s) ? nullptr : &s.swarm.start.jitter_m; }
+std::optional<double>* jitter_of(Scenario& s) noexcept {
+  return is_listed(s) || is_random(s) ? nullptr : &s.swarm.start.jitter_m;
+}
 double* link_share_of(Scenario& s) noexcept {
   return is_bridge(s) || is_random(s) ? &s.swarm.start.link_share : nullptr;
 }
@@ -148,7 +150,7 @@ constexpr Key<Scenario> scenario_rows[] = {
      "the paper as printed (literal), or with its gaps closed (corrected); literal has an effect with outwards and "
      "inwards only"},
     {"mission.target_tolerance_m", of<&Mission::target_tolerance_m>, "m", any_length,
-     "a target is reached when its worker is this near"},
+     "a target is reached when its worker is this near", {.otherwise = "0.1 C, at least 2.84 radii"}},
     {"mission.time_limit_s", of<&Mission::time_limit_s>, "s", any_time,
      "the run ends then; 0: ten times a straight drive to the farthest target"},
     {"mission.stop_when_complete", of<&Mission::stop_when_complete>, "", any_value,
@@ -176,10 +178,11 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"swarm.start.pitch_m", by<pitch_of>, "m", some_reach,
      "distance between neighbours, within the clusters of a bridge; in a random start the least distance between "
      "any two",
-     {.not_beside = "pitch_share"}},
+     {.otherwise = "0.16 C, at least 4.55 radii", .not_beside = "pitch_share"}},
     {"swarm.start.pitch_share", by<pitch_share_of>, "", any_part,
      "the same as a share of radio.range_m; not beside pitch_m", {.otherwise = "pitch_m counts"}},
-    {"swarm.start.jitter_m", by<jitter_of>, "m", any_reach, "each robot is displaced from its point by up to this"},
+    {"swarm.start.jitter_m", by<jitter_of>, "m", any_reach, "each robot is displaced from its point by up to this",
+     {.otherwise = "0.01 C, at least 0.284 radii"}},
     {"swarm.start.link_share", by<link_share_of>, "", any_part,
      "spacing of the bridge, or longest link over which a random start grows, as a share of radio.range_m"},
     {"swarm.start.bridge_robots", by<bridge_robots_of>, "", some_robots, "robots between the two clusters"},
@@ -192,7 +195,7 @@ constexpr Key<Scenario> scenario_rows[] = {
      "holonomic"},
     {"robot.radius_m", of<&RobotModel::radius_m>, "m", some_reach, "radius of the body"},
     {"robot.wheel_distance_m", of<&RobotModel::wheel_distance_m>, "m", some_reach,
-     "distance between the wheels"},
+     "distance between the wheels", {.otherwise = "1.497 radii"}},
     {"robot.wheel_limit_m_s", of<&RobotModel::wheel_limit_m_s>, "m/s", {1e-4, 1000.0},
      "largest speed of a wheel"},
     {"robot.wheel_noise", of<&RobotModel::wheel_noise>, "", any_share,
@@ -207,11 +210,12 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"robot.max_torque_nm", of<&RobotModel::max_torque_nm>, "N m", {0.0, 1e6, true},
      "largest torque of the wheels (body box2d)"},
     {"robot.max_acceleration_m_s2", of<&RobotModel::max_acceleration_m_s2>, "m/s^2", {0.0, 1e8, true},
-     "bound on the acceleration |u| (body linear)"},
+     "bound on the acceleration |u| (body linear)", {.otherwise = "50 wheel_limit^2 / C"}},
     {"robot.dead_bodies", of<&RobotModel::dead_bodies>, "", any_value,
      "the dead stay where they are and block motion and sight; false: they vanish"},
     {"robot.proximity_m", of<&RobotModel::proximity_m>, "m", any_reach,
-     "reach of the proximity sensor, from the robot's centre to the surface of obstacles and dead bodies; 0: none"},
+     "reach of the proximity sensor, from the robot's centre to the surface of obstacles and dead bodies; 0: none",
+     {.otherwise = "0.15 C, at least 4.26 radii"}},
 
     {"radio.model", of<&RadioModel::model>, "", any_value,
      "which packets are lost within range and sight: disc, each with the same probability; bursts, many in a row; "
@@ -277,7 +281,7 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"battery.slots", by<battery_of<&Battery::slots>>, "", {1.0, 1000.0},
         "robots that a place charges at the same time"},
     {"battery.reach_m", by<battery_of<&Battery::reach_m>>, "m", some_reach,
-     "a place charges robots no farther from it than this"},
+     "a place charges robots no farther from it than this", {.otherwise = "0.3 C, at least 8.52 radii"}},
     {"battery.charge_w", by<battery_of<&Battery::charge_w>>, "W", {0.0, 1e6, true},
         "power into each robot that is charged"},
 
@@ -286,7 +290,7 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"targets.positions_m", by<listed_targets_of>, "m", anywhere, "one [x, y] per target", {.required = true}},
     {"targets.count", of<&RingTargets::count, &RandomTargets::count>, "", {1.0, 10000.0}, "number of targets"},
     {"targets.radius_m", of<&RingTargets::radius_m, &RandomTargets::radius_m>, "m", {0.0, world_size},
-     "distance of the targets from the centre; the largest one if random"},
+     "distance of the targets from the centre; the largest one if random", {.otherwise = "1.5 C"}},
     {"targets.phase_deg", of<&RingTargets::phase_rad>, "deg", any_angle,
      "direction of the first target, counter-clockwise from the x axis"},
     {"targets.center_m", of<&RingTargets::center, &RandomTargets::center>, "m", anywhere,

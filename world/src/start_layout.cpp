@@ -215,7 +215,7 @@ std::vector<Vec2> grown(const Scenario& scenario, const Ground& ground, double l
 std::vector<Vec2> start_points(const Scenario& scenario) {
   const Start& start = scenario.swarm.start;
   const bool random = start.layout == Layout::random;
-  const Ground ground(scenario.obstacles, scenario.robot.radius_m + (random ? 0.0 : start.jitter_m));
+  const Ground ground(scenario.obstacles, scenario.robot.radius_m + (random ? 0.0 : start_jitter_m(scenario)));
   const std::size_t count = robot_count(scenario);
   const double pitch = start_pitch_m(scenario);
   const double link = start.link_share * scenario.radio.range_m;

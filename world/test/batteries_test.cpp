@@ -131,7 +131,7 @@ TEST(Batteries, ChargeRisesOnlyInASlotInReachAndSlotsAreNeverOverfilled) {
       used += charged ? 1 : 0;
       ASSERT_TRUE(world.charge()[i] >= 0.0 && world.charge()[i] <= 1.0);
       if (charged) {
-        ASSERT_LE(norm(world.positions()[i]), s.battery.reach_m + 1e-12);
+        ASSERT_LE(norm(world.positions()[i]), charging_reach_m(s) + 1e-12);
       } else {
         ASSERT_LE(world.charge()[i], before[i]) << "robot " << i << " at tick " << t;
       }

@@ -82,7 +82,7 @@ TEST(Events, ARootThatIsFrozenDoesNotKeepTheOthersFromTheirTargets) {
     World world(s);
     for (int t = 0; t < 1500; ++t) world.step();
     for (const Target& target : world.targets())
-      EXPECT_LT(distance(world.positions()[target.worker], target.position), s.mission.target_tolerance_m) << frozen_s;
+      EXPECT_LT(distance(world.positions()[target.worker], target.position), target_tolerance_m(s)) << frozen_s;
     EXPECT_LT(norm(world.positions()[root]), 6.0);
     EXPECT_FALSE(world.links(root).empty());
   }

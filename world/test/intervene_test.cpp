@@ -242,7 +242,7 @@ TEST(Intervene, RefusesWhatCannotHappenInTheWordsOfFaults) {
       {{.action = RemoveObstacle{1}}, "events[1].obstacle: there is no obstacle 1; the last one is 0"},
       {{.action = AddObstacle{{0.0, 5.0}, 0.0}}, "events[1].radius_m: "},
       {{.action = AddObstacle{{0.0, 5.0}, -0.3}}, "events[1].radius_m: "},
-      {{.action = MoveObstacle{0, {nan, 0.0}}}, "events[1].position_m[0]: is nan; allowed: -10000 to 10000 m"},
+      {{.action = MoveObstacle{0, {nan, 0.0}}}, "events[1].position_m[0]: is nan; allowed: -100000000 to 100000000 m"},
       {{.action = AddTarget{{5.0, 5.0}}}, "events[1].position_m: the target at (5, 5) lies inside an obstacle"},
       {{.action = SetLoss{nan}}, "events[1].loss: is nan; allowed: 0 to 1"},
       {{.action = Blackout{}}, "events[1].duration_s: must be above 0"},

@@ -209,7 +209,7 @@ TEST(Moments, CompleteIsWhenAllTargetsAreHeldForTheFirstTime) {
     world.step();
     bool all = true;
     for (const Target& target : world.targets())
-      all = all && distance(world.positions()[target.worker], target.position) <= s.mission.target_tolerance_m;
+      all = all && distance(world.positions()[target.worker], target.position) <= target_tolerance_m(s);
     if (all) complete = world.tick();
   }
   ASSERT_GT(complete, 10U);

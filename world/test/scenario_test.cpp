@@ -80,6 +80,38 @@ TEST(Scenario, TimeLimitIsTenTimesTheDriveToTheFarthestTarget) {
   EXPECT_DOUBLE_EQ(time_limit_s(scenario), 77.0);
 }
 
+// The lengths of a Khepera IV at C = 2 m, and `factor` times as long.
+void expect_lengths(const Scenario& scenario, double factor) {
+  EXPECT_DOUBLE_EQ(start_pitch_m(scenario), 0.32 * factor);
+  EXPECT_DOUBLE_EQ(start_jitter_m(scenario), 0.02 * factor);
+  EXPECT_DOUBLE_EQ(target_tolerance_m(scenario), 0.2 * factor);
+  EXPECT_DOUBLE_EQ(proximity_m(scenario), 0.3 * factor);
+  EXPECT_DOUBLE_EQ(charging_reach_m(scenario), 0.6 * factor);
+}
+
+TEST(Scenario, LengthsThatAreNotGivenFollowFromTheRangeAndTheBody) {
+  Scenario scenario = plain_scenario();
+  expect_lengths(scenario, 1.0);
+  EXPECT_EQ(wheel_distance_m(scenario), 0.1054);
+  EXPECT_EQ(max_acceleration_m_s2(scenario), 1.0);
+  EXPECT_DOUBLE_EQ(norm(target_positions(scenario)[0]), 3.0);
+  scenario.radio.range_m = 0.5;
+  expect_lengths(scenario, 1.0);  // the bodies are as large as they were
+  EXPECT_DOUBLE_EQ(norm(target_positions(scenario)[0]), 0.75);
+  scenario.robot.radius_m = 0.0352;
+  expect_lengths(scenario, 0.5);
+  EXPECT_DOUBLE_EQ(wheel_distance_m(scenario), 0.0527);
+  scenario.radio.range_m = 7.0;
+  expect_lengths(scenario, 3.5);
+  scenario.robot.wheel_limit_m_s = 1.4;
+  EXPECT_DOUBLE_EQ(max_acceleration_m_s2(scenario), 14.0) << "as fast as it drives within 0.02 drives, 0.1 s";
+  scenario.swarm.start.pitch_m = scenario.swarm.start.jitter_m = scenario.mission.target_tolerance_m =
+      scenario.robot.proximity_m = scenario.battery.reach_m = scenario.robot.wheel_distance_m =
+          scenario.robot.max_acceleration_m_s2 = 0.0;
+  expect_lengths(scenario, 0.0);  // what is given counts
+  EXPECT_EQ(wheel_distance_m(scenario) + max_acceleration_m_s2(scenario), 0.0);
+}
+
 TEST(Scenario, AlgorithmsAreSetUpFromMissionAndPlatform) {
   Scenario scenario = plain_scenario();
   scenario.mission.algorithm = "inwards";

@@ -123,11 +123,12 @@ TEST(StartLayout, ABridgeOfAnySizeIsConnected) {
 TEST(StartLayout, ABridgeOfOneKeepsItsClustersApart) {
   Scenario scenario = laid_out(Layout::bridge, 40);
   scenario.swarm.start.bridge_robots = 1;
-  for (scenario.swarm.start.pitch_m = 0.3; scenario.swarm.start.pitch_m < 1.8; scenario.swarm.start.pitch_m += 0.3) {
-    scenario.swarm.start.link_share = scenario.swarm.start.pitch_m / 2.0;
+  for (double pitch_m = 0.3; pitch_m < 1.8; pitch_m += 0.3) {
+    scenario.swarm.start.pitch_m = pitch_m;
+    scenario.swarm.start.link_share = pitch_m / 2.0;
     const std::vector<Vec2> p = place(scenario).position;
-    EXPECT_GE(closest_pair(p), scenario.swarm.start.pitch_m - 1e-9);
-    EXPECT_TRUE(connected_within(p, scenario.swarm.start.pitch_m + 1e-9));
+    EXPECT_GE(closest_pair(p), pitch_m - 1e-9);
+    EXPECT_TRUE(connected_within(p, pitch_m + 1e-9));
   }
 }
 

@@ -37,8 +37,8 @@ Scenario scenario_of(const Mission& m) {
 double straight_drive_s(const World& world) {
   double longest_m = 0.0;
   for (const Target& t : world.targets())
-    longest_m = std::max(
-        longest_m, distance(world.positions()[t.worker], t.position) - world.scenario().mission.target_tolerance_m);
+    longest_m =
+        std::max(longest_m, distance(world.positions()[t.worker], t.position) - target_tolerance_m(world.scenario()));
   return longest_m / world.scenario().robot.wheel_limit_m_s;
 }
 

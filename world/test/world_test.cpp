@@ -354,7 +354,7 @@ std::optional<std::size_t> holder_by_hand(const World& world, std::size_t t) {
     const Report& said = world.reports()[i];
     const double away = distance(world.positions()[i], world.targets()[t].position);
     if (world.alive()[i] == 0 || said.role != Role::worker || said.serves != world.targets()[t].worker) continue;
-    if (away > world.scenario().mission.target_tolerance_m) continue;
+    if (away > target_tolerance_m(world.scenario())) continue;
     if (!best || away < distance(world.positions()[*best], world.targets()[t].position)) best = i;
   }
   return best;

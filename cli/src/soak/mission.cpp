@@ -59,7 +59,7 @@ void draw_targets(Dice& dice, Scenario& s, bool plain) {
   const double radius = rounded(dice.between(1.0, 4.5) * s.radio.range_m, 0.01);
   if (dice.once_in(3)) s.targets = RingTargets{count, radius, dice.between(0.0, 6.28), {}};
   else s.targets = RandomTargets{count, radius, {}};
-  s.swarm.redundancy = rounded(dice.between(1.5, 8.0) * 2.0 / s.radio.range_m, 0.01);
+  s.swarm.redundancy = rounded(dice.between(1.5, 8.0), 0.01);
   s.swarm.robots = std::clamp(robot_count(s), count + 1, std::max(most_robots, count + 1));
 }
 

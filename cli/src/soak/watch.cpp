@@ -40,7 +40,7 @@ class MissionWatch {
     start_ = {world_.positions().begin(), world_.positions().end()};
     for (const Target& target : world_.targets()) {
       const double way_m = free_path_m(scenario.obstacles, world_.positions()[target.worker], target.position);
-      const double drive_s = (way_m - scenario.mission.target_tolerance_m) / scenario.robot.wheel_limit_m_s;
+      const double drive_s = (way_m - world::target_tolerance_m(scenario)) / scenario.robot.wheel_limit_m_s;
       outcome_.bound_s = std::max(outcome_.bound_s, drive_s);
     }
   }
@@ -165,7 +165,7 @@ class MissionWatch {
       for (std::size_t i = 0; i < world_.size() && !held; ++i)
         held = world_.alive()[i] != 0 && world_.reports()[i].role == Role::worker &&
                world_.reports()[i].serves == target.worker &&
-               distance(world_.positions()[i], target.position) <= world_.scenario().mission.target_tolerance_m;
+               distance(world_.positions()[i], target.position) <= world::target_tolerance_m(world_.scenario());
       if (!held) return;
     }
     std::vector<bool> tree(world_.size());
@@ -196,7 +196,7 @@ class MissionWatch {
       gap.erase(gap.begin() + nearest);
     }
     const auto alive = std::count(world_.alive().begin(), world_.alive().end(), 1);
-    const double tolerance = world_.scenario().mission.target_tolerance_m;
+    const double tolerance = world::target_tolerance_m(world_.scenario());
     const double links = (0.8241 * length - count * tolerance) / sight_.range_m();
     return static_cast<double>(alive) < std::max(links + 1.0, count + 1.0);
   }
@@ -213,7 +213,7 @@ class MissionWatch {
       if (world_.targets()[k].active && !moves[k]) targets.push_back(world_.targets()[k].position);
     const RobotModel& robot = world_.scenario().robot;
     const double fastest_m_s = robot.wheel_limit_m_s * (1.0 + surely * (robot.wheel_noise + robot.wheel_bias));
-    return !all_in_reach(start_, targets, fastest_m_s * limit_s_ + world_.scenario().mission.target_tolerance_m);
+    return !all_in_reach(start_, targets, fastest_m_s * limit_s_ + world::target_tolerance_m(world_.scenario()));
   }
 
   World world_;

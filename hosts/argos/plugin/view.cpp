@@ -46,7 +46,7 @@ void TreeView::DrawInWorld() {
   }
   for (const world::Target& target : world.targets())
     if (target.active)
-      DrawCircle(at(target.position, floor_m), CQuaternion(), world.scenario().mission.target_tolerance_m,
+      DrawCircle(at(target.position, floor_m), CQuaternion(), world::target_tolerance_m(world.scenario()),
                  color(record::palette::target), true, 32);
 }
 

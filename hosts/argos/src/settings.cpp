@@ -171,10 +171,14 @@ Settings read_settings(std::span<const Attribute> attributes, const AlgorithmLis
   return AttributeReader(list, tick_s).read(attributes);
 }
 
+// ARGoS' controller does not know the robot's radius: what follows from it is written out.
 std::vector<Attribute> attributes_of(const world::Scenario& scenario) {
+  world::Scenario told = scenario;
+  told.mission.target_tolerance_m = world::target_tolerance_m(scenario);
+  told.robot.wheel_distance_m = world::wheel_distance_m(scenario);
   std::vector<Attribute> attributes;
   for (const std::string_view path : scenario_paths)
-    attributes.push_back({std::string(key_at(path).name()), text_of(world::get(key_at(path), scenario))});
+    attributes.push_back({std::string(key_at(path).name()), text_of(world::get(key_at(path), told))});
   const auto own = world::algorithm_of(scenario).parameters();
   for (const auto& [key, value] : scenario.mission.parameters)
     if (std::any_of(own.begin(), own.end(), [&, &key = key](const ParameterInfo* info) { return info->key == key; }))

@@ -60,7 +60,7 @@ class ToySimulator final : public MirroredRobots {
       robot.pose.position +=
           forward_m * BasicVec2<double>{std::cos(robot.pose.heading_rad), std::sin(robot.pose.heading_rad)};
       robot.pose.heading_rad += 0.01 * (robot.wheels.right_cm_s - robot.wheels.left_cm_s) /
-                                scenario_.robot.wheel_distance_m * scenario_.tick_s / parts;
+                                wheel_distance_m(scenario_) * scenario_.tick_s / parts;
     }
   }
 
@@ -79,7 +79,7 @@ class ToySimulator final : public MirroredRobots {
     }
     ArgosRobot::Readings readings;
     readings.odometry =
-        odometry_of(me.wheels.left_cm_s, me.wheels.right_cm_s, scenario_.robot.wheel_distance_m, scenario_.tick_s);
+        odometry_of(me.wheels.left_cm_s, me.wheels.right_cm_s, wheel_distance_m(scenario_), scenario_.tick_s);
     readings.sent = me.told.sent;
     if (me.told.sent) readings.target = in_body_frame(me.told.target, me.pose.position, me.pose.heading_rad);
     readings.given_up = me.told.given_up;

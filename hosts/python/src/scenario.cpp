@@ -190,7 +190,7 @@ void bind_scenario(py::module_& m) {
       .def_property_readonly("wheel_limit_m_s",
                              [](const PyScenario& s) { return s.configuration.scenario.robot.wheel_limit_m_s; })
       .def_property_readonly("wheel_distance_m",
-                             [](const PyScenario& s) { return s.configuration.scenario.robot.wheel_distance_m; })
+                             [](const PyScenario& s) { return world::wheel_distance_m(s.configuration.scenario); })
       .def_property_readonly("range_m", [](const PyScenario& s) { return s.configuration.scenario.radio.range_m; })
       .def_property_readonly("asynchronous",
                              [](const PyScenario& s) { return s.configuration.scenario.clocks.asynchronous; })

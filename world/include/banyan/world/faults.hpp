@@ -18,6 +18,8 @@ struct Fault {
   std::string key;
   std::string text;
   bool warning = false;  // a run is still possible
+  // Other keys that have a part in it: a user may have written one of them rather than `key`.
+  std::vector<std::string> with{};
 };
 
 // Everything that makes `scenario` impossible or doubtful, none if it is fine: ranges, NaN, counts,

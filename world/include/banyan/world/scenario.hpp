@@ -21,10 +21,10 @@ namespace banyan::world {
 using Vec2 = BasicVec2<double>;
 
 struct Mission {
-  std::string algorithm;              // a name in Scenario::algorithms
-  std::string reading = "corrected";  // or "literal"
-  double target_tolerance_m = 0.20;
-  double time_limit_s = 0.0;  // 0: 10 r / v_max, r the farthest target from the start's centre
+  std::string algorithm;                       // a name in Scenario::algorithms
+  std::string reading = "corrected";           // or "literal"
+  std::optional<double> target_tolerance_m{};  // this and other lengths may follow from C and the body: see below
+  double time_limit_s = 0.0;                   // 0: 10 r / v_max, r the farthest target from the start's centre
   bool stop_when_complete = true;
   double settle_s = 0.0;            // with stop_when_complete: how long to go on after completion
   std::size_t link_redundancy = 1;  // k: paths between any two targets that share no other robot
@@ -36,9 +36,9 @@ enum class Layout : std::uint8_t { hexagonal, grid, line, ring, cross, bridge, r
 struct Start {
   Layout layout = Layout::hexagonal;
   Vec2 center{};
-  double pitch_m = 0.32;
+  std::optional<double> pitch_m{};
   std::optional<double> pitch_share{};  // of radio.range_m, instead of pitch_m
-  double jitter_m = 0.02;               // uniform in a disc of this radius around each point; not in a random start
+  std::optional<double> jitter_m{};     // uniform in a disc of this radius around each point; not in a random start
   double link_share = 0.9;              // of radio.range_m: spacing of the bridge, longest link of a random start
   std::size_t bridge_robots = 3;        // layout bridge: between the two clusters
   std::vector<Vec2> positions;          // layout list
@@ -57,17 +57,17 @@ enum class BodyModel : std::uint8_t { disks, box2d, linear };
 struct RobotModel {
   BodyModel body = BodyModel::disks;
   double radius_m = 0.0704;  // Khepera IV
-  double wheel_distance_m = 0.1054;
+  std::optional<double> wheel_distance_m{};
   double wheel_limit_m_s = 0.2;
-  double wheel_noise = 0.0;            // sigma of the factor on each wheel's speed, drawn every tick
-  double wheel_bias = 0.0;             // sigma of a factor drawn once per wheel
-  double odometry_noise = 0.0;         // sigma of the factor on each odometry reading
-  double mass_kg = 0.4;                // box2d
-  double max_force_n = 1.5;            // box2d
-  double max_torque_nm = 1.5;          // box2d
-  double max_acceleration_m_s2 = 1.0;  // linear: |u| <= this (paper II-A)
-  bool dead_bodies = true;             // the dead stay and block motion and sight; false: they vanish
-  double proximity_m = 0.30;           // reach of the proximity sensor from the robot's centre; 0: none
+  double wheel_noise = 0.0;                       // sigma of the factor on each wheel's speed, drawn every tick
+  double wheel_bias = 0.0;                        // sigma of a factor drawn once per wheel
+  double odometry_noise = 0.0;                    // sigma of the factor on each odometry reading
+  double mass_kg = 0.4;                           // box2d
+  double max_force_n = 1.5;                       // box2d
+  double max_torque_nm = 1.5;                     // box2d
+  std::optional<double> max_acceleration_m_s2{};  // linear: |u| <= this (paper II-A)
+  bool dead_bodies = true;                        // the dead stay and block motion and sight; false: they vanish
+  std::optional<double> proximity_m{};            // reach of the proximity sensor from the robot's centre; 0: none
 };
 
 struct RadioModel {
@@ -106,11 +106,11 @@ struct Battery {
   double charge_per_s = 1e-4;     // time: share of the capacity
   double charge_per_m = 1e-3;     // motion
   double charge_per_rad = 1e-3;
-  double noise = 0.0;        // sigma of the measured charge, as a share of the capacity
-  std::vector<Vec2> places;  // where robots are charged; each is held like a target
-  std::size_t slots = 4;     // robots charged at one place at the same time
-  double reach_m = 0.6;      // from a place to the robots that it charges
-  double charge_w = 25.0;    // into each of them
+  double noise = 0.0;               // sigma of the measured charge, as a share of the capacity
+  std::vector<Vec2> places;         // where robots are charged; each is held like a target
+  std::size_t slots = 4;            // robots charged at one place at the same time
+  std::optional<double> reach_m{};  // from a place to the robots that it charges
+  double charge_w = 25.0;           // into each of them
 
   [[nodiscard]] bool on() const noexcept { return model != Model::none; }
 };
@@ -119,7 +119,7 @@ struct Battery {
 struct RingTargets {
   static constexpr std::string_view kind = "ring";
   std::size_t count = 3;
-  double radius_m = 3.0;
+  std::optional<double> radius_m{};
   double phase_rad = 0.0;
   Vec2 center{};
 };
@@ -127,7 +127,7 @@ struct RingTargets {
 struct RandomTargets {
   static constexpr std::string_view kind = "random";
   std::size_t count = 3;
-  double radius_m = 3.0;
+  std::optional<double> radius_m{};
   Vec2 center{};
 };
 using Targets = std::variant<std::vector<Vec2>, RingTargets, RandomTargets>;  // the first: "list"
@@ -269,8 +269,18 @@ struct Scenario {
 // At least one more than targets and charging places.
 [[nodiscard]] std::size_t robot_count(const Scenario& scenario);
 
-// Between neighbours of the start; in a random one the least between any two robots.
-[[nodiscard]] double start_pitch_m(const Scenario& scenario);
+// What a scenario does not say of lengths follows from the radio's range C and the body. Most are shares of this: C, or
+// 28.4 radii of the body where that is more; it is C = 2 m with a Khepera IV.
+[[nodiscard]] double length_scale_m(const Scenario& scenario) noexcept;
+// As given, or such a share. Between neighbours of the start; in a random one the least between any two robots.
+[[nodiscard]] double start_pitch_m(const Scenario& scenario) noexcept;
+[[nodiscard]] double start_jitter_m(const Scenario& scenario) noexcept;
+[[nodiscard]] double target_tolerance_m(const Scenario& scenario) noexcept;
+[[nodiscard]] double proximity_m(const Scenario& scenario) noexcept;
+[[nodiscard]] double charging_reach_m(const Scenario& scenario) noexcept;
+// As given, or in proportion to the body, and to what makes a robot fast within a fiftieth of a drive.
+[[nodiscard]] double wheel_distance_m(const Scenario& scenario) noexcept;
+[[nodiscard]] double max_acceleration_m_s2(const Scenario& scenario) noexcept;
 
 // A drive: the time in which a robot covers C at full speed, 10 s by default. What motion takes is counted in drives.
 [[nodiscard]] double drive_s(const Scenario& scenario) noexcept;

@@ -17,9 +17,9 @@ struct Twist {
 
 // What the wheels make of a command: each within its limit, times its noise (drawn every tick) and
 // its bias (drawn once).
-[[nodiscard]] inline Twist wheel_twist(const RobotModel& robot, const Velocity& command, std::uint64_t seed,
-                                       std::size_t i, std::uint64_t tick) noexcept {
-  const double turn_part = 0.5 * static_cast<double>(command.turn_rad_s) * robot.wheel_distance_m;
+[[nodiscard]] inline Twist wheel_twist(const RobotModel& robot, double wheel_distance_m, const Velocity& command,
+                                       std::uint64_t seed, std::size_t i, std::uint64_t tick) noexcept {
+  const double turn_part = 0.5 * static_cast<double>(command.turn_rad_s) * wheel_distance_m;
   double wheel[2] = {static_cast<double>(command.forward_m_s) - turn_part,
                      static_cast<double>(command.forward_m_s) + turn_part};
   for (std::uint64_t side = 0; side < 2; ++side) {
@@ -29,7 +29,7 @@ struct Twist {
     if (robot.wheel_bias > 0.0)
       wheel[side] *= 1.0 + robot.wheel_bias * to_normal(bits(seed, Purpose::wheel_bias, i, side));
   }
-  return {0.5 * (wheel[0] + wheel[1]), (wheel[1] - wheel[0]) / robot.wheel_distance_m};
+  return {0.5 * (wheel[0] + wheel[1]), (wheel[1] - wheel[0]) / wheel_distance_m};
 }
 
 // Odometry of a motion by `shift` (body frame of the tick's start, m) and `turn` (rad).
