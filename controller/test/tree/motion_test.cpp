@@ -15,8 +15,6 @@
 namespace banyan {
 namespace {
 
-Vec2 polar(float range, float angle) { return unit_vector(angle) * range; }
-
 TEST(Avoidance, IsFiniteOnTheSameSpot) {
   for (const float d : {0.0F, 1e-30F, 1e-23F, 1e-19F, 1e-10F, 1e-6F, 1.1e-6F, 1e-5F}) {
     ConvoyBench bench = grown();

@@ -40,7 +40,7 @@ struct Path {
 Vec2 carried(const Path& path, Vec2 measured, float age_s, float elapsed_s) {
   TreeMessage message;
   message.id = 5;
-  std::array heard{typename Kind::Heard{&message, measured, age_s}};
+  std::array heard{Heard{&message, measured, age_s}};
   const Inputs<Heard> inputs(heard, {.odometry = path.odometry(), .elapsed_s = elapsed_s}, test_platform);
   return inputs.heard()[0].position;
 }
