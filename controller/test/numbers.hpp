@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Random numbers for property tests.
+// Random numbers for property tests, and places.
 #pragma once
 
 #include <rapidcheck.h>
+
+#include "banyan/controller/core/trig.hpp"
 
 namespace banyan {
 
@@ -11,5 +13,7 @@ inline float number(float low, float high) {
   constexpr int steps = 1 << 20;
   return low + (high - low) * static_cast<float>(*rc::gen::inRange(0, steps + 1)) / static_cast<float>(steps);
 }
+
+inline Vec2 polar(float range, float angle) { return unit_vector(angle) * range; }
 
 }  // namespace banyan

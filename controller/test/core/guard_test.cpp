@@ -18,7 +18,6 @@ namespace {
 constexpr float delta = 0.95F;  // C, the longest an edge may be
 constexpr float rate = 10.0F;   // per drive
 
-Vec2 polar(float range, float angle) { return unit_vector(angle) * range; }
 // A velocity in any direction, v_max.
 Vec2 any_velocity() { return polar(number(0, 1), number(-3.14F, 3.14F)); }
 

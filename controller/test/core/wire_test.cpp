@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -24,7 +26,7 @@ bool flag() { return *rc::gen::arbitrary<bool>(); }
 RobotId sender() { return *rc::gen::inRange<RobotId>(0, nobody); }
 RobotId robot() { return flag() ? nobody : sender(); }
 std::int16_t signed_word() { return *rc::gen::arbitrary<std::int16_t>(); }
-Coordinate coordinate() { return {signed_word()}; }
+Coordinate coordinate() { return Coordinate::of(Coordinate{signed_word()}.value()); }
 std::uint8_t byte() { return *rc::gen::arbitrary<std::uint8_t>(); }
 
 void fill(TreeMessage& m) {
@@ -199,6 +201,17 @@ TYPED_TEST(Wire, NumbersThatWouldPoisonASumAreRefused) {
   }
   m.q_x = q_limit, m.q_y = -q_limit;
   EXPECT_TRUE(over_the_wire(m).has_value());
+}
+
+// A place has one form: its finest.
+TYPED_TEST(Wire, LongerFormsOfAPlaceAreRefused) {
+  auto m = of_robot<TypeParam>(7);
+  for (int bits = INT16_MIN; bits <= INT16_MAX; ++bits) {
+    m.centroid_x.bits = static_cast<std::int16_t>(bits);
+    const int steps = bits >> 2, scale = bits & 3;
+    const bool is_finest = scale == 0 || std::abs(steps) * 4 > 8191;
+    ASSERT_EQ(over_the_wire(m).has_value(), is_finest && steps >= -8191) << steps << ", scale " << scale;
+  }
 }
 
 // Algorithms of different blocks do not misread each other, were their messages of the same length.

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "banyan/controller/core/trig.hpp"
 #include "bench.hpp"
 #include "numbers.hpp"
 
