@@ -78,7 +78,7 @@ std::uint64_t exercise(Step step, Drive drive, State& state, Message said) noexc
 union Memory {
   ConvoyState convoy;
   paper::State paper;
-  Memory() noexcept {}   // nothing lives in it yet
+  constexpr Memory() noexcept {}  // nothing lives in it yet
   ~Memory() noexcept {}  // the states are trivial
 };
 

@@ -53,7 +53,7 @@ void file_heard(TreeRobot& robot) noexcept {
            hold_of(m) == self.id;
   };
   table.begin(robot.elapsed_ticks,
-              robot.reading.filters_positions ? robot.params.way_in_a_round() : 0.0F);
+              robot.params.way_in_a_round());
   const bool noisy = table.filter().has_seen_noise();
   for (Heard& h : robot.heard) {
     const TreeMessage& m = *h.message;

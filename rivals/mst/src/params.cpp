@@ -19,8 +19,8 @@ constexpr Parameter<Params> of_mst[] = {
     {{"build_rounds", "", "rounds", "mst: a construction that takes longer is begun anew",
       "More than log2 N rounds through the longest chain.", "mst", 10.0F, 36000.0F},
      &Params::build_rounds},
-    {{"consensus_gain", "", "1/m",
-      "mst: a robot without a target goes to the mean of its tree neighbours, this much per metre",
+    {{"consensus_gain", "", "1/C",
+      "mst: a robot without a target goes to the mean of its tree neighbours, this much of v_max per C",
       "Larger follows more closely and comes to rest later.", "mst", 0.0F, 100.0F},
      &Params::consensus_gain},
 };
