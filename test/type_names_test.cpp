@@ -2,7 +2,8 @@
 // One name, one thing: no two types of the house have the same name. Reads every source file that is no test and names
 // each type that is defined twice. A member belongs to its class (Radio::Row), and two aliases for the same type are
 // one. Each algorithm of other authors speaks their language, in a namespace of its own that no other includes: their
-// names are compared with those of the rooms, not with one another.
+// names are compared with those of the rooms, not with one another. So do the paper's two, which share no room with
+// ours.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -104,10 +105,23 @@ std::string rival_of(const std::string& file) {
   return std::regex_match(file, m, in_rivals) && m[1] != "common" ? m[1].str() : "";
 }
 
+bool is_of_paper(const std::string& file) {
+  static const std::regex in_paper(R"(^controller/.*\bpaper/.*)");
+  return std::regex_match(file, in_paper);
+}
+
+// Algorithms that do not include each other.
+bool are_of_two_authors(const std::string& a, const std::string& b) {
+  const auto is_algorithm = [](const std::string& file) {
+    return file.starts_with("controller/") || !rival_of(file).empty();
+  };
+  return is_of_paper(a) != is_of_paper(b) && is_algorithm(a) && is_algorithm(b);
+}
+
 bool are_one(const Definition& a, const Definition& b) {
   const bool of_two_rivals =
       !rival_of(a.file).empty() && !rival_of(b.file).empty() && rival_of(a.file) != rival_of(b.file);
-  return of_two_rivals || (!a.alias.empty() && a.alias == b.alias);
+  return of_two_rivals || are_of_two_authors(a.file, b.file) || (!a.alias.empty() && a.alias == b.alias);
 }
 
 std::string twice(const std::map<std::string, std::string>& files) {
@@ -168,6 +182,15 @@ TEST(TypeNames, RivalsAreComparedWithTheRoomsAlone) {
   EXPECT_NE(twice({{"rivals/one/src/a.cpp", x}, {"rivals/one/src/b.cpp", x}}), "");
   EXPECT_NE(twice({{"rivals/common/src/a.cpp", x}, {"rivals/two/src/a.cpp", x}}), "");
   EXPECT_NE(twice({{"record/src/a.cpp", x}, {"rivals/two/src/a.cpp", x}}), "");
+}
+
+TEST(TypeNames, ThePaperIsComparedWithTheOtherRoomsAlone) {
+  const std::string x = "struct X {};";
+  const char* const paper = "controller/src/paper/a.cpp";
+  EXPECT_EQ(twice({{paper, x}, {"controller/src/tree/a.cpp", x}}), "");
+  EXPECT_EQ(twice({{paper, x}, {"rivals/two/src/a.cpp", x}}), "");
+  EXPECT_NE(twice({{paper, x}, {"controller/src/paper/b.cpp", x}}), "");
+  EXPECT_NE(twice({{paper, x}, {"record/src/a.cpp", x}}), "");
 }
 
 TEST(TypeNames, ATextThatIsNotUnderstoodIsAFault) {
