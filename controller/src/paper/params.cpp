@@ -12,6 +12,7 @@ constexpr double cm = 200.0;
 constexpr double drive_s = 10.0;
 constexpr double round_s = 0.1;
 
+// "Table I: Optimized Design Parameters"
 struct Line {
   float Params::*symbol;
   double outwards, inwards, unit;
