@@ -128,7 +128,7 @@ TEST(World, LatencyIsExact) {
         ++heard;
         ASSERT_GT(t, latency);
         const auto sent = static_cast<std::size_t>(t - latency);
-        const paper::Table& table = swarm().state(i).neighbors;
+        const paper::Neighborhood& table = swarm().state(i).neighbors;
         const std::size_t sender = table.id(k);
         EXPECT_EQ(table.messages[static_cast<std::size_t>(k)], said[sent][sender]) << latency << " at " << t;
         // Where the sender was then, seen from where the receiver is now: its odometry carried it along.
@@ -304,9 +304,8 @@ TEST(World, AnImpossibleScenarioIsRefusedWithAllItsFaults) {
 }
 
 TEST(World, NeedsAtMostNineAndAHalfKilobytesPerRobot) {
-  for (const auto& [algorithm, reading, most] : {std::tuple{"outwards", "literal", 8'960U},
-                                                 {"outwards", "corrected", 8'960U},
-                                                 {"inwards", "corrected", 8'960U},
+  for (const auto& [algorithm, reading, most] : {std::tuple{"outwards", "literal", 8'832U},
+                                                 {"inwards", "corrected", 8'832U},
                                                  {"convoy", "corrected", 9'728U}})
     for (const std::size_t robots : {94U, 1000U}) {
       Scenario s = ring(algorithm, robots, 4, 9.0, 1);
