@@ -79,7 +79,7 @@ union Memory {
   ConvoyState convoy;
   paper::State paper;
   constexpr Memory() noexcept {}  // nothing lives in it yet
-  ~Memory() noexcept {}  // the states are trivial
+  ~Memory() noexcept {}           // the states are trivial
 };
 
 // Every algorithm with every drive, as connector and as worker; names and results go to `report`.

@@ -91,8 +91,7 @@ std::span<const Parameter<ConvoyParams>> convoy_parameters() noexcept { return o
 std::string_view convoy_fault(const ConvoyParams& params) noexcept {
   if (!(params.pull_start < params.ideal_distance)) return "pull_start must be below ideal_distance (delta) / C";
   if (const std::string_view text = power_fault(params); !text.empty()) return text;
-  if (!(params.join_margin < params.ideal_distance))
-    return "join_margin must be below ideal_distance (delta) / C";
+  if (!(params.join_margin < params.ideal_distance)) return "join_margin must be below ideal_distance (delta) / C";
   // Also for those who choose a shorter delta and leave the rest as it is.
   const float longest = std::max(params.ideal_distance, longest_link);
   if (!(params.compact_distance < longest)) return "compact_distance must be below ideal_distance (delta) / C";

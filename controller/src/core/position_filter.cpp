@@ -12,8 +12,8 @@ constexpr float explained = 1.25F;       // of that way: what motion explains of
 constexpr float newest = 1.0F / 256.0F;  // weight of an innovation: what counts are the last few hundred
 // Of the walk: a shove in a crowd that odometry does not see is forgotten at once.
 constexpr float noticed = 1.0F / 32.0F;
-constexpr float bearing_lever = 0.5F;     // C: at this distance a bearing is compared with it
-constexpr float surely = 0.99F;           // and what it explains whatever the roundings
+constexpr float bearing_lever = 0.5F;    // C: at this distance a bearing is compared with it
+constexpr float surely = 0.99F;          // and what it explains whatever the roundings
 constexpr float shortest_lever = 0.25F;  // nearer, a neighbour's own motion turns its bearing by much
 
 float squared_excess(float innovation, float explained_by_motion) noexcept {
@@ -56,8 +56,7 @@ Vec2 PositionFilter::fuse(Vec2 predicted, Vec2 measured, int ticks, int measurem
 void PositionFilter::learn(Vec2 predicted, Vec2 measured, int ticks) noexcept {
   const float by_motion = explained * way_ * static_cast<float>(ticks);
   const float least = surely * by_motion;
-  if (!has_seen_noise() && squared_norm(measured - predicted) <= least * least)
-    return;  // neither excess is above 0
+  if (!has_seen_noise() && squared_norm(measured - predicted) <= least * least) return;  // neither excess is above 0
   const float expected = norm(predicted);
   const float measured_range = norm(measured);
   if (!(expected > 0.0F) || !(measured_range > 0.0F)) return;

@@ -7,7 +7,7 @@
 namespace banyan {
 namespace {
 
-constexpr int nearer = 6;  // of per_range
+constexpr int nearer = 6;              // of per_range
 constexpr int patience_hindered = 18;  // times as long: the way round may be long, and the target may drive away
 
 // How much of a tick at full speed towards the target this velocity is, in eighteenths; back and forth adds to 0.

@@ -49,8 +49,8 @@ bool may_fold(const ConvoyRobot& robot) noexcept {
 }
 
 bool folds(const ConvoyRobot& robot) noexcept {
-  return may_fold(robot) && prunes(robot.params) && robot.self.subtree_workers > 0 &&
-         robot.self.want < folds_from && robot.self.call_hops >= companion_call;
+  return may_fold(robot) && prunes(robot.params) && robot.self.subtree_workers > 0 && robot.self.want < folds_from &&
+         robot.self.call_hops >= companion_call;
 }
 
 float folded_reach(const ConvoyParams&) noexcept { return relied_on; }
@@ -70,8 +70,7 @@ bool is_off_middle(const ConvoyRobot& robot, int owner, int parent) noexcept {
   const ConvoyParams& p = robot.params;
   const float edge = distance(table.position(owner), table.position(parent));
   if (!may_fold(robot) || is_under_way(table.message(owner)) || edge > folded_reach(p)) return false;
-  return std::max(table.range(owner), table.range(parent)) >
-         std::max(0.5F * edge, folded_edge(p)) + off_middle;
+  return std::max(table.range(owner), table.range(parent)) > std::max(0.5F * edge, folded_edge(p)) + off_middle;
 }
 
 bool leads_travelling(const ConvoyRobot& robot, int k) noexcept {
@@ -89,8 +88,7 @@ Vec2 folding_motion(const ConvoyRobot& robot) noexcept {
       u += unit(table.position(k)) * ramp(table.range(k), edge - taut_below, taut_width);
   if (robot.parent < 0 || robot.self.want > 0.0F) return u;  // the last bit of the way it is towed
   const Vec2 up = unit(table.position(robot.parent));
-  return u + up * ramp(table.range(robot.parent), edge - gives_below, gives_width * edge) +
-         look_past(robot, up);
+  return u + up * ramp(table.range(robot.parent), edge - gives_below, gives_width * edge) + look_past(robot, up);
 }
 
 Vec2 clear_folds(const ConvoyRobot& robot, float width) noexcept {

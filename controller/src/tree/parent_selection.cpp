@@ -40,8 +40,7 @@ int flood_parent(const TreeRobot& robot, const ParentRule& rule) noexcept {
   if (k < 0 || !robot.is_sure(k)) return -1;
   const TreeStanding& m = robot.table().message(k);
   const bool near = robot.table().range(k) <= longest_link;
-  return near && may_relay(rule, m) && m.epoch == self.epoch && m.label < self.label && is_ahead(robot, k) ? k
-                                                                                                                 : -1;
+  return near && may_relay(rule, m) && m.epoch == self.epoch && m.label < self.label && is_ahead(robot, k) ? k : -1;
 }
 
 // Still none: a childless robot has no robot below it, so it may move behind any committed neighbour.
@@ -116,8 +115,7 @@ void reattach_orphan(TreeRobot& robot, const ParentRule& rule) noexcept {
 // The order is still that of the old root: a robot that has handed over the token is ahead of its heir, and
 // would take as parent a robot that is below it in the tree.
 bool hangs_on_heir(const TreeRobot& robot) noexcept {
-  return robot.self.phase == Phase::select_root && robot.self.parent == nobody &&
-         robot.old_parent_alive();
+  return robot.self.phase == Phase::select_root && robot.self.parent == nobody && robot.old_parent_alive();
 }
 
 // A spare that has just joined my edge has its parent's sequence number of the last tick: I wait for it.
@@ -210,8 +208,7 @@ void keep_up(TreeRobot& robot, int k) noexcept {
   // which there is no place.
   const std::uint16_t below = label_below(m.label, robot.table().range(k));
   const bool renews = self.phase >= Phase::grow_tree;
-  if (self.label == unknown_label || self.label <= m.label || (renews && self.label > below))
-    self.label = below;
+  if (self.label == unknown_label || self.label <= m.label || (renews && self.label > below)) self.label = below;
 }
 
 void take_parent(TreeRobot& robot, int k) noexcept {
@@ -222,8 +219,7 @@ void take_parent(TreeRobot& robot, int k) noexcept {
   self.pending_parent = nobody;
   keep_up(robot, k);
   // A robot without a label that is as fresh as its parent must not be ahead of it.
-  if (self.label == unknown_label)
-    self.label = label_below(robot.table().message(k).label, robot.table().range(k));
+  if (self.label == unknown_label) self.label = label_below(robot.table().message(k).label, robot.table().range(k));
   if (self.phase >= Phase::grow_tree) robot.drop_old_parent();
 }
 

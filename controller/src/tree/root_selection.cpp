@@ -71,8 +71,7 @@ void select_root(TreeRobot& robot, FunctionRef<bool(int)> may_inherit, bool leav
   }
   if (self.new_root != nobody) {
     robot.add_elapsed(self.offer_ticks);
-    if (self.offer_ticks <= std::max(whole(robot.params.handover_rounds), robot.liveness_ticks()))
-      return;
+    if (self.offer_ticks <= std::max(whole(robot.params.handover_rounds), robot.liveness_ticks())) return;
     self.root.sequence = advanced(self.root.sequence, 2);  // beats an acceptance not heard
     self.new_root = nobody;
     return enter(robot, advanced(self.epoch), Phase::start_tree);

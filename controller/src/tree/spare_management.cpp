@@ -116,9 +116,9 @@ RobotId nearest_caller(const TreeRobot& robot) noexcept {
   return best < 0 ? nobody : table.id(best);
 }
 
-// A spare that stands still may be far from where it is needed. Needs that no spare answers spread hop by hop, and spares without an edge in sight follow the gradient.
-// True while a call is live: once it is over, the hops that robots tell each other count up, which is no
-// gradient to follow.
+// A spare that stands still may be far from where it is needed. Needs that no spare answers spread hop by hop, and
+// spares without an edge in sight follow the gradient. True while a call is live: once it is over, the hops that robots
+// tell each other count up, which is no gradient to follow.
 bool spread_call(TreeRobot& robot, const EdgeRule& rule) noexcept {
   TreeState& self = robot.self;
   const bool steady = robot.call_hops < self.call_hops;
@@ -146,8 +146,7 @@ void join_edge(TreeRobot& robot, int owner) noexcept {
   const TreeStanding& above = table.message(parent);
   auto label = static_cast<std::uint16_t>((std::uint32_t{table.message(owner).label} + above.label) / 2);
   if (label <= above.label) label = label_below(above.label, 0.0F);
-  self.label =
-      is_newer(above.seqno, self.seqno) ? label : std::min(label, self.label);  // never fall back (is_ahead)
+  self.label = is_newer(above.seqno, self.seqno) ? label : std::min(label, self.label);  // never fall back (is_ahead)
   self.seqno = above.seqno;
   self.seqno_ticks = 0;
   take_parent(robot, parent);
@@ -218,8 +217,7 @@ RobotId nearest_reference(const TreeRobot& robot) noexcept {
 
 bool is_stretched(const TreeRobot& robot) noexcept {
   const TreeState& self = robot.self;
-  return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.recruitment_distance &&
-         self.want > 0.0F;
+  return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.recruitment_distance && self.want > 0.0F;
 }
 
 bool child_in_need(const TreeRobot& robot) noexcept {

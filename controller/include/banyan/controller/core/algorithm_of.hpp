@@ -81,8 +81,8 @@ inline std::string range_fault(std::span<const float> values, std::span<const Bo
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const ParameterInfo& info = *rows[k].info;
     if (values[k] >= info.minimum && values[k] <= info.maximum) continue;  // NaN fails too
-    return std::string(info.key) + " must be between " + plain(info.minimum) + " and " + plain(info.maximum) + ", not " +
-           plain(values[k]);
+    return std::string(info.key) + " must be between " + plain(info.minimum) + " and " + plain(info.maximum) +
+           ", not " + plain(values[k]);
   }
   return {};
 }
@@ -108,7 +108,8 @@ template <class A> class AlgorithmOf : public Algorithm {
     return algorithm_detail::values_of(setup, of_.bind(params));
   }
   [[nodiscard]] std::string fault(const Setup& setup) const override {
-    if (const std::string_view text = machine_fault(machine_of(setup.platform)); !text.empty()) return std::string(text);
+    if (const std::string_view text = machine_fault(machine_of(setup.platform)); !text.empty())
+      return std::string(text);
     Params params = defaults_on(setup);
     const auto bound = of_.bind(params);
     const auto values = algorithm_detail::values_of(setup, bound);

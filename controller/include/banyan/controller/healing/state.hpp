@@ -43,8 +43,9 @@ inline constexpr std::uint16_t first_gap = 200;  // sixteenths of ticks: taken f
 
 // The progress of a worker (progress.cpp).
 struct Progress {
-  std::uint16_t least = UINT16_MAX;  // the nearest that it has come to its target, in C / 256, since something was in the way
-  std::uint16_t vain_ticks = 0;         // eighteenths of ticks at full speed towards it since, in vain
+  std::uint16_t least =
+      UINT16_MAX;  // the nearest that it has come to its target, in C / 256, since something was in the way
+  std::uint16_t vain_ticks = 0;  // eighteenths of ticks at full speed towards it since, in vain
 };
 
 // Stands before the tree's part: behind the neighbour table, each access would take a chip a further instruction.

@@ -17,8 +17,8 @@ struct Detour {
   Vec2 contact;               // where the obstacle was touched last
   Vec2 origin;                // where the detour began
   Vec2 goal;                  // as it was then
-  float leave = 0.0F;       // the detour is over when the goal is nearer than this
-  float span = 0.0F;        // this far from the origin the other side is tried
+  float leave = 0.0F;         // the detour is over when the goal is nearer than this
+  float span = 0.0F;          // this far from the origin the other side is tried
 };
 
 inline constexpr float obstacle_near = 0.095F;  // C: between body and obstacle, when it begins to matter

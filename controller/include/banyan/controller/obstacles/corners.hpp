@@ -22,8 +22,8 @@ struct CornerStanding {
 template <class Visitor, class M> constexpr void visit_corner_block(Visitor& visit, M& m) noexcept {
   visit.flag("pinned", "1: a corner is about to cut the edge to the parent", m.pinned);
   visit.coordinate("hinge_x",
-               "known obstacle point nearest to the edge to the parent, relative to the parent, along that edge",
-               m.hinge_x);
+                   "known obstacle point nearest to the edge to the parent, relative to the parent, along that edge",
+                   m.hinge_x);
   visit.coordinate("hinge_y", "the same, to the left of that edge; 0, 0: none", m.hinge_y);
 }
 

@@ -73,8 +73,7 @@ struct KnownOfTree {
 inline constexpr float longest_link = 0.95F;
 
 struct TreeRobot {
-  TreeRobot(const TreeParams& params_, TreeState& self_, const Inputs<Heard>& inputs,
-            Workspace& space) noexcept
+  TreeRobot(const TreeParams& params_, TreeState& self_, const Inputs<Heard>& inputs, Workspace& space) noexcept
       : params(params_),
         self(self_),
         heard(inputs.heard()),
@@ -130,20 +129,15 @@ struct TreeRobot {
   [[nodiscard]] const TreeTable& table() const noexcept { return self.neighbors; }
   [[nodiscard]] bool is_root() const noexcept { return self.root.id == self.id; }
   // I, and longer where packets are lost.
-  [[nodiscard]] int liveness_ticks() const noexcept {
-    return std::max(whole(params.liveness_rounds), loss_ticks);
-  }
+  [[nodiscard]] int liveness_ticks() const noexcept { return std::max(whole(params.liveness_rounds), loss_ticks); }
   // How long a connector waits for a child; one that has just chosen it may not have been heard yet.
   // A silent one counts as alive for long where packets get lost many in a row.
   [[nodiscard]] int patience_ticks() const noexcept {
     constexpr int sooner_in_bursts = 6;  // loss_ticks is the longest row of losses, and most are far shorter
-    return std::max(whole(params.connector_rounds),
-                    has_bursts() ? loss_ticks / sooner_in_bursts : loss_ticks);
+    return std::max(whole(params.connector_rounds), has_bursts() ? loss_ticks / sooner_in_bursts : loss_ticks);
   }
   // The longest edge a robot may choose (protocol 2, row 4).
-  [[nodiscard]] float parent_range() const noexcept {
-    return params.ideal_distance - params.parent_margin;
-  }
+  [[nodiscard]] float parent_range() const noexcept { return params.ideal_distance - params.parent_margin; }
   // A point, relative to me, that the sender has written for me in its edge frame. False if it was not
   // heard in the tick before: what it wrote refers to where both were then, and over a distance a bearing that
   // is a tick old makes an error of a tenth of C.

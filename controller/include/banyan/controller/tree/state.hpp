@@ -51,9 +51,9 @@ struct TreeState {
   RobotCount subtree_workers = 0;
   RobotCount count = 0;             // Alg. 2
   Vec2 q;                           // m, own frame; at the root Alg. 1's centroid
-  float want = 0.0F;              // largest remaining worker distance below me
+  float want = 0.0F;                // largest remaining worker distance below me
   Vec2 pull;                        // target pull, own frame
-  float least_want = 0.0F;        // the least want since it last grew
+  float least_want = 0.0F;          // the least want since it last grew
   std::uint16_t stalled_ticks = 0;  // since want last changed by a twentieth of C
 
   // Root selection (root_selection.hpp)

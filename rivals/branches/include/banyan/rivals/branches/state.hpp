@@ -98,9 +98,7 @@ struct State : KnownRoot {
   [[nodiscard]] bool is_follower() const noexcept { return !assignment.sent && !connector; }
   [[nodiscard]] bool is_joined() const noexcept { return joined_age <= news_ticks; }
   // For longer than a change takes to lead the news another way.
-  [[nodiscard]] bool is_cut(const Params& params) const noexcept {
-    return cut_ticks > whole(params.change_rounds);
-  }
+  [[nodiscard]] bool is_cut(const Params& params) const noexcept { return cut_ticks > whole(params.change_rounds); }
   [[nodiscard]] bool has_lost_parent() const noexcept { return lost != nobody && lost_root != nobody; }
   [[nodiscard]] bool has_lost_child() const noexcept { return lost != nobody && lost_root == nobody; }
   void forget() noexcept { lost = lost_root = nobody; }
