@@ -78,8 +78,8 @@ std::uint64_t exercise(Step step, Drive drive, State& state, Message said) noexc
 union Memory {
   ConvoyState convoy;
   paper::State paper;
-  constexpr Memory() noexcept {}  // nothing lives in it yet
-  ~Memory() noexcept {}           // the states are trivial
+  char empty;
+  constexpr Memory() noexcept : empty(0) {}
 };
 
 // Every algorithm with every drive, as connector and as worker; names and results go to `report`.
