@@ -228,7 +228,12 @@ export class App {
 
   private listen(source: Source): void {
     const mine = () => this.runs.has(source); // it may have been closed
-    source.header.subscribe(() => { if (mine()) { this.told.headers(); this.draw(); } });
+    source.header.subscribe((header) => {
+      if (!mine()) return;
+      if (header !== null) this.player.suit(header.settings[0].setting.time_limit_s);
+      this.told.headers();
+      this.draw();
+    });
     source.series.subscribe(() => this.told.want());
     source.events.subscribe(() => this.told.want());
     source.failure.subscribe((problem) => { if (problem && mine()) this.notice.bad(problem.message); });

@@ -223,6 +223,15 @@ describe('the player', () => {
     expect(player.timeS).toBe(20);
   });
 
+  it('suits the length of a mission until somebody chooses a speed', () => {
+    const player = new Player();
+    const suited = [0, 150, 450, 900, 3636, 1e9].map((limitS) => { player.suit(limitS); return player.speed; });
+    expect(suited).toEqual([1, 1, 1, 2, 8, 64]);
+    player.setSpeed(4);
+    player.suit(3636);
+    expect(player.speed).toBe(4);
+  });
+
   it('has speeds that are powers of two, and strides that follow', () => {
     const { player } = playing(new Fake(1000));
     const speeds: number[] = [];

@@ -3,6 +3,7 @@
 // two it is the same world, bit for bit. Without the body box2d, which has metres inside.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "banyan/controller/core/digest.hpp"
@@ -63,10 +64,8 @@ std::uint64_t state_of(const World& world, double length) {
   return digest.value();
 }
 
-void expect_same_at_every_scale(const Scenario& scenario) {
-  constexpr int ticks = 120;
-  constexpr ToyAlgorithm toy;
-  World world(scenario, toy);
+void expect_same_at_every_scale(const Scenario& scenario, const Algorithm& algorithm, int ticks) {
+  World world(scenario, algorithm);
   std::vector<std::uint64_t> states{state_of(world, 1.0)};
   for (int t = 0; t < ticks; ++t) {
     world.step();
@@ -74,9 +73,9 @@ void expect_same_at_every_scale(const Scenario& scenario) {
   }
   EXPECT_GT(world.packets_received(), 1000U);
   for (const Factors factors : {Factors{0.25, 1.0}, Factors{2.0, 1.0}, Factors{16.0, 1.0}, Factors{1.0, 0.5},
-                                Factors{1.0, 2.0}, Factors{4.0, 0.25}}) {
+                                Factors{1.0, 2.0}, Factors{4.0, 0.25}, Factors{0x1p-7, 1.0}, Factors{0x1p15, 8.0}}) {
     SCOPED_TRACE("lengths times " + std::to_string(factors.length) + ", times " + std::to_string(factors.time));
-    World other(multiplied(scenario, factors), toy);
+    World other(multiplied(scenario, factors), algorithm);
     ASSERT_EQ(state_of(other, factors.length), states[0]) << "at the start";
     for (int t = 0; t < ticks; ++t) {
       other.step();
@@ -84,6 +83,11 @@ void expect_same_at_every_scale(const Scenario& scenario) {
       ASSERT_EQ(other.time_s(), factors.time * scenario.tick_s * (t + 1));
     }
   }
+}
+
+void expect_same_at_every_scale(const Scenario& scenario) {
+  constexpr ToyAlgorithm toy;
+  expect_same_at_every_scale(scenario, toy, 120);
 }
 
 TEST(Scale, TheWorldHasNone) { expect_same_at_every_scale(busy()); }
@@ -136,6 +140,36 @@ TEST(Scale, BatteriesHaveNone) {
   s.battery.charge_per_s = 0.01;
   s.battery.charge_per_m = 0.1;
   expect_same_at_every_scale(s);
+}
+
+// Its robots do, know and say the same, to the last bit: behind the gate there is no metre and no second.
+class ScaleOf : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(All, ScaleOf,
+                         testing::Values("outwards", "inwards", "convoy", "link-consensus", "mst", "fiedler", "cohesion",
+                                         "chains", "branches"),
+                         [](const auto& tested) {
+                           std::string name = tested.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_P(ScaleOf, AnAlgorithmHasNone) {
+  const Algorithm& algorithm = *algorithms().find(GetParam());
+  for (const char* reading : {"corrected", "literal"}) {
+    Scenario s = busy();
+    s.radio.range_noise_m = 0.1;
+    s.mission.reading = reading;
+    expect_same_at_every_scale(s, algorithm, 300);
+    if (!algorithm.knows_readings()) break;
+  }
+}
+
+TEST(Scale, RobotsOnBatteriesHaveNone) {
+  Scenario s = busy();
+  s.battery.model = Battery::Model::power;
+  s.battery.capacity_j = 500.0;
+  s.battery.places = {{0.5, 1.8}};
+  expect_same_at_every_scale(s, convoy(), 300);
 }
 
 // Else all the others prove little: this length is multiplied in none of them.

@@ -15,8 +15,6 @@ constexpr int orphan_still_ticks = 5;
 constexpr int orphan_attach_ticks = 20;
 constexpr int drafted_attach_ticks = 4;
 
-constexpr std::uint16_t largest_label = unknown_label - 1;  // where label_below() saturates
-
 bool may_relay(const ParentRule& rule, const TreeStanding& m) noexcept {
   return m.role != Role::worker || rule.workers_relay;
 }

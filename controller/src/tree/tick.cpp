@@ -132,7 +132,8 @@ Report tree_report(const TreeState& s) noexcept {
   return {.role = s.role, .parent = s.parent, .old_parent = s.old_parent, .serves = s.is_worker ? s.id : nobody,
           .root = s.root.id, .root_sequence = s.root.sequence, .epoch = s.epoch, .phase = s.phase, .need = s.need,
           .spare_state = s.spare_state, .label = s.label == unknown_label ? -1.0F : from_fixed(s.label), .depth = s.depth,
-          .grant = s.grant, .request = s.request, .want = s.want, .tally = s.tally};
+          .grant = s.grant, .request = s.request, .want = s.want, .out_of_scale = s.label == largest_label,
+          .tally = s.tally};
   // clang-format on
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bench.hpp"
+#include "banyan/controller/tree/parent_selection.hpp"
 
 namespace banyan {
 namespace {
@@ -97,6 +98,20 @@ TEST(Label, GrowsAlongEveryEdgeAndSaturates) {
   EXPECT_EQ(edge_label(0.617F), 158);
   EXPECT_EQ(label_below(100, 0.25F), 164);
   EXPECT_EQ(label_below(unknown_label - 1, 1.0F), unknown_label - 1);
+}
+
+// 255.99 C from the root, along the tree: nothing fits behind that.
+TEST(Label, ARobotAtTheEndOfTheScaleTakesNoChildAndReportsIt) {
+  for (const std::uint16_t label : {largest_label, static_cast<std::uint16_t>(largest_label - 1)}) {
+    auto child = grown<Convoy>();
+    child.state.label = unknown_label;
+    child.put_connector(2, {0.3F, 0}, label, 5);
+    const ConvoyRobot robot = child.tick();
+    EXPECT_EQ(is_ahead(robot, robot.table().find(2)), label != largest_label);
+    auto parent = grown<Convoy>();
+    parent.state.label = label;
+    EXPECT_EQ(convoy_report(parent.state).out_of_scale, label == largest_label);
+  }
 }
 
 // ---- paper ----

@@ -17,6 +17,7 @@ export interface Playable {
 
 export const slowest = 1 / 4;
 export const fastest = 64;
+const suitedS = 300;
 const longestStepMs = 250; // a page in the background gets no frames; it does not leap afterwards
 const shownPerS = 20; // frames of the run that are worth showing, per second
 const slack = 1e-9;
@@ -36,6 +37,7 @@ export class Player {
   timeS = 0;
   playing = false;
   speed = 1;
+  private chosen = false; // the speed, by the visitor
   /** The frames for `timeS`, or for going on, are not there yet. */
   waiting = false;
   /** Shows the newest moment of a recording that is being written, as fast as it comes. */
@@ -108,7 +110,12 @@ export class Player {
   setSpeed(speed: number): void {
     if (!(speed > 0)) return;
     this.newest = false;
+    this.chosen = true;
     this.speed = Math.min(fastest, Math.max(slowest, 2 ** Math.round(Math.log2(speed))));
+  }
+  /** Unless a speed has been chosen: a mission of up to five minutes as it is, a longer one so much faster. */
+  suit(limitS: number): void {
+    if (!this.chosen) this.speed = Math.min(fastest, 2 ** Math.floor(Math.log2(Math.max(1, limitS / suitedS))));
   }
   faster(): void {
     this.setSpeed(2 * this.speed);

@@ -24,6 +24,7 @@ constexpr bool newer(RootToken a, RootToken b) noexcept {
 }
 
 inline constexpr std::uint16_t unknown_label = 0xFFFF;
+inline constexpr std::uint16_t largest_label = unknown_label - 1;  // nothing fits behind it: such a robot takes no child
 inline constexpr std::uint16_t invalid_depth = 0;
 inline constexpr std::uint8_t unreachable = 0xFF;
 inline constexpr std::uint8_t nobody_calls = 0xFF;
