@@ -25,7 +25,6 @@ TEST(Params, TheOrderOfDistancesIsChecked) {
   EXPECT_TRUE(faulty(&TreeParams::safe_range, 0.975F));
   EXPECT_TRUE(faulty(&TreeParams::ideal_distance, 1.005F));
   EXPECT_FALSE(faulty(&TreeParams::ideal_distance, 1.0F)) << "an edge without margin, but possible";
-  EXPECT_TRUE(faulty(&TreeParams::reconfiguration_drives, 660.0F)) << "more ticks than are counted";
 }
 
 TEST(Params, ThereMayBeParentsAndOneHeirAtATime) {

@@ -81,9 +81,23 @@ inline std::string range_fault(std::span<const float> values, std::span<const Bo
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const ParameterInfo& info = *rows[k].info;
     if (values[k] >= info.minimum && values[k] <= info.maximum) continue;  // NaN fails too
-    return std::string(info.key) + " must be between " + plain(info.minimum) + " and " + plain(info.maximum) + ", not " +
-           plain(values[k]);
+    return std::string(info.key) + " must be between " + plain(info.minimum) + " and " + plain(info.maximum) +
+           ", not " + plain(values[k]);
   }
+  return {};
+}
+
+// Robots count rounds in 16 bits, and some times are sums.
+inline constexpr float most_counted_rounds = 50'000.0F;
+
+// The first time that these robots cannot count, in words.
+inline std::string time_fault(std::span<const float> values, std::span<const BoundParameter> rows,
+                              const Machine& machine) {
+  const float most = most_counted_rounds / machine.rounds_per_drive;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (rows[k].info->unit == "drives" && !(values[k] <= most))
+      return std::string(rows[k].info->key) + " must be at most " + plain(most) + " for robots so slow, not " +
+             plain(values[k]) + ": they count " + plain(most_counted_rounds) + " control periods";
   return {};
 }
 
@@ -108,11 +122,13 @@ template <class A> class AlgorithmOf : public Algorithm {
     return algorithm_detail::values_of(setup, of_.bind(params));
   }
   [[nodiscard]] std::string fault(const Setup& setup) const override {
-    if (const std::string_view text = machine_fault(machine_of(setup.platform)); !text.empty()) return std::string(text);
+    if (const std::string_view text = machine_fault(machine_of(setup.platform)); !text.empty())
+      return std::string(text);
     Params params = defaults_on(setup);
     const auto bound = of_.bind(params);
     const auto values = algorithm_detail::values_of(setup, bound);
     std::string text = algorithm_detail::range_fault(values, bound);
+    if (text.empty()) text = algorithm_detail::time_fault(values, bound, params);
     if (!text.empty()) return text;
     algorithm_detail::resolve(values, bound, params);
     return std::string(of_.fault(params));
