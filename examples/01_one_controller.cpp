@@ -3,31 +3,31 @@
 // of a world in ten lines. Robot 0 is the root and stands still; robot 1 is sent to a target.
 #include <cstdio>
 
-#include "banyan/controller/healing/tick.hpp"
-#include "banyan/controller/outwards.hpp"
+#include "banyan/controller/paper/paper.hpp"
 
 using namespace banyan;
 
 int main() {
   const Platform platform;  // what the robot is: a Khepera IV with a radio that reaches 2 m
-  HealingParams params = outwards_defaults();
+  paper::Params params = paper::outwards_column();
   static_cast<Machine&>(params) = machine_of(platform);
-  HealingState states[2] = {initial_healing_state(0, false, true), initial_healing_state(1, true, false)};
-  HealingMessage sent[2];  // what each robot said in the last tick
+  paper::State states[2] = {paper::initial(0, false, true), paper::initial(1, true, false)};
+  paper::Message sent[2];  // what each robot said in the last tick
   Odometry odometry[2];    // how each moved since then; the root does not
   const Vec2 target{1.2F, 0.4F};
   Vec2 position[2] = {{0.0F, 0.0F}, {0.3F, 0.0F}};
   Vec2 heading[2] = {{1.0F, 0.0F}, {0.0F, 1.0F}};  // the worker does not face the target
 
   for (int tick = 0; tick < 150; ++tick) {
-    Output<HealingMessage> output[2];
+    Output<paper::Message> output[2];
     for (int i = 0; i < 2; ++i) {
       // Situated communication: the message, and where its sender is in my own frame.
-      Heard heard[] = {{&sent[1 - i], rotate_back(heading[i], position[1 - i] - position[i])}};
+      paper::Heard heard[] = {{&sent[1 - i], rotate_back(heading[i], position[1 - i] - position[i])}};
       Senses senses;
       senses.odometry = odometry[i];
       if (i == 1) senses.orders = {.sent = true, .target = rotate_back(heading[i], target - position[i])};
-      output[i] = outwards_step(params, states[i], {std::span(heard, tick > 0 ? 1 : 0), senses, platform});
+      output[i] = paper::step(paper::outwards, paper::corrected, params, states[i],
+                              {std::span(heard, tick > 0 ? 1 : 0), senses, platform});
     }
     sent[0] = output[0].message;
     sent[1] = output[1].message;

@@ -142,6 +142,9 @@ std::optional<std::string> quoted_fault(const fs::path& room_folder, const fs::p
   return "is not in its room";
 }
 
+// The paper's two algorithms share no room with ours but core/.
+bool is_of_paper(const fs::path& file) { return std::find(file.begin(), file.end(), "paper") != file.end(); }
+
 // What is wrong with an include line of `file` in `room`, in words; nothing if it is right.
 std::optional<std::string> fault(const fs::path& room_folder, const fs::path& file, const Include& include,
                                  bool product) {
@@ -157,6 +160,9 @@ std::optional<std::string> fault(const fs::path& room_folder, const fs::path& fi
         !name.starts_with("banyan/controller/core/"))
       return "names an algorithm";
     if (on_robot && is_for_hosts(name)) return "is for hosts";
+    if (room == "controller" && product && is_of_paper(file) != is_of_paper(name) &&
+        !name.starts_with("banyan/controller/core/"))
+      return "is shared with the paper's room";
     if (other == "algorithms" && !product && room != "controller") return std::nullopt;  // tests name them
     if (!may_include.contains(other)) return "names no room";
     if (other != room && !allowed_for(room_folder, file).contains(other)) return "points up";
@@ -237,13 +243,24 @@ TEST_F(WrongHouse, OnlyTheSeamKnowsHosts) {
   EXPECT_EQ(faults_of("controller/src/x.cpp", "#include \"banyan/controller/core/swarm.hpp\""),
             "controller/src/x.cpp: banyan/controller/core/swarm.hpp is for hosts\n");
 }
+TEST_F(WrongHouse, ThePapersAlgorithmsStandOnCoreAlone) {
+  const char* const ours = "#include \"banyan/controller/tree/motion.hpp\"";
+  EXPECT_EQ(faults_of("controller/src/paper/x.cpp", "#include \"banyan/controller/core/guard.hpp\""), "");
+  EXPECT_EQ(faults_of("controller/src/paper/x.cpp", ours),
+            "controller/src/paper/x.cpp: banyan/controller/tree/motion.hpp is shared with the paper's room\n");
+  EXPECT_EQ(faults_of("controller/src/paper/x.cpp", ""), "");
+  EXPECT_EQ(faults_of("controller/src/convoy/x.cpp", ours), "");
+  EXPECT_EQ(faults_of("controller/src/convoy/x.cpp", "#include \"banyan/controller/paper/paper.hpp\""),
+            "controller/src/convoy/x.cpp: banyan/controller/paper/paper.hpp is shared with the paper's room\n");
+  EXPECT_EQ(faults_of("controller/src/convoy/x.cpp", ""), "");
+}
 TEST_F(WrongHouse, OnlyTheListAndTestsNameAlgorithms) {
-  EXPECT_EQ(faults_of("algorithms/src/x.cpp", "#include \"banyan/controller/outwards.hpp\""), "");
+  EXPECT_EQ(faults_of("algorithms/src/x.cpp", "#include \"banyan/controller/paper/paper.hpp\""), "");
   EXPECT_EQ(faults_of("world/test/x_test.cpp",
-                      "#include \"banyan/algorithms/algorithms.hpp\"\n#include \"banyan/controller/outwards.hpp\""),
+                      "#include \"banyan/algorithms/algorithms.hpp\"\n#include \"banyan/controller/paper/paper.hpp\""),
             "");
-  EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"banyan/controller/outwards.hpp\""),
-            "world/src/x.cpp: banyan/controller/outwards.hpp names an algorithm\n");
+  EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"banyan/controller/paper/paper.hpp\""),
+            "world/src/x.cpp: banyan/controller/paper/paper.hpp names an algorithm\n");
   EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"banyan/algorithms/algorithms.hpp\""),
             "world/src/x.cpp: banyan/algorithms/algorithms.hpp points up\n");
   std::filesystem::remove(house_ / "world/src/x.cpp");

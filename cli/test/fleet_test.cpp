@@ -41,8 +41,7 @@ class NearbyRobots final : public udp::RemoteLink {
     Setup setup = world::setup_of(scenario);
     setup.history = 1;
     for (std::size_t i = 0; i < robots; ++i)
-      robots_.emplace_back(world::algorithm_of(scenario), setup, static_cast<RobotId>(i), 0.5,
-                           static_cast<float>(scenario.robot.radius_m));
+      robots_.emplace_back(world::algorithm_of(scenario), setup, static_cast<RobotId>(i), 0.5);
   }
   [[nodiscard]] std::optional<udp::Status> take(std::size_t i) override {
     return std::exchange(answers_[i], std::nullopt);

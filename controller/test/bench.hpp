@@ -13,8 +13,7 @@
 #include "banyan/controller/convoy/robot.hpp"
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/healing/tick.hpp"
-#include "banyan/controller/inwards.hpp"
-#include "banyan/controller/outwards.hpp"
+#include "banyan/controller/paper/paper.hpp"
 #include "banyan/controller/tree/tree_index.hpp"
 #include "test_platform.hpp"
 
@@ -22,41 +21,25 @@ namespace banyan {
 
 // ---- Kinds of robots: what an algorithm runs on ----
 
-template <auto defaults_function, auto step_function> struct LiteralKind {
-  using Params = TreeParams;
-  using State = TreeState;
-  using Message = TreeMessage;
-  using Robot = TreeRobot;
-  // NOLINTNEXTLINE(cppcoreguidelines-slicing): the tree's share of them
-  static Params defaults() { return defaults_function(); }
-  static State initial(RobotId id, bool worker, bool root) { return initial_tree_state(id, worker, root); }
-  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs, Workspace& space) {
-    return {params, literal_reading, state, inputs, space};
-  }
+template <const paper::Growth& growth, const paper::Reading& reading, auto column> struct PaperKind {
+  using Params = paper::Params;
+  using State = paper::State;
+  using Message = paper::Message;
+  using Heard = paper::Heard;
+  using Robot = paper::Robot;
+  static Params defaults() { return column(); }
+  static State initial(RobotId id, bool worker, bool root) { return paper::initial(id, worker, root); }
   static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) {
-    return step_function(params, state, inputs);
+    return paper::step(growth, reading, params, state, inputs);
   }
-};
-
-template <auto defaults_function, auto step_function> struct CorrectedKind {
-  using Params = HealingParams;
-  using State = HealingState;
-  using Message = HealingMessage;
-  using Robot = HealingRobot;
-  static Params defaults() { return defaults_function(); }
-  static State initial(RobotId id, bool worker, bool root) { return initial_healing_state(id, worker, root); }
-  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs, Workspace& space) {
-    return {params, state, inputs, space};
-  }
-  static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) {
-    return step_function(params, state, inputs);
-  }
+  static Report report(const State& state) { return paper::report(state); }
 };
 
 struct Convoy {
   using Params = ConvoyParams;
   using State = ConvoyState;
   using Message = ConvoyMessage;
+  using Heard = banyan::Heard;
   using Robot = ConvoyRobot;
   static Params defaults() { return convoy_defaults(); }
   static State initial(RobotId id, bool worker, bool root) { return initial_convoy_state(id, worker, root); }
@@ -66,12 +49,13 @@ struct Convoy {
   static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) {
     return convoy_step(params, state, inputs);
   }
+  static Report report(const State& state) { return convoy_report(state); }
 };
 
-using Outwards = CorrectedKind<outwards_defaults, outwards_step>;
-using Inwards = CorrectedKind<inwards_defaults, inwards_step>;
-using OutwardsLiteral = LiteralKind<outwards_defaults, outwards_literal_step>;
-using InwardsLiteral = LiteralKind<inwards_defaults, inwards_literal_step>;
+using Outwards = PaperKind<paper::outwards, paper::corrected, paper::outwards_column>;
+using Inwards = PaperKind<paper::inwards, paper::corrected, paper::inwards_column>;
+using OutwardsLiteral = PaperKind<paper::outwards, paper::literal, paper::outwards_column>;
+using InwardsLiteral = PaperKind<paper::inwards, paper::literal, paper::inwards_column>;
 
 // visit.operator()<Kind>() for every algorithm, in both readings.
 template <class Visit> void for_each_kind(Visit visit) {
@@ -87,6 +71,7 @@ template <class Visit> void for_each_kind(Visit visit) {
 template <class Kind> class BenchOf {
  public:
   using Message = typename Kind::Message;
+  using Heard = typename Kind::Heard;
   using Robot = typename Kind::Robot;
 
   explicit BenchOf(RobotId id = 1) : state{Kind::initial(id, false, false)} {}
@@ -177,7 +162,6 @@ template <class Kind> class BenchOf {
   std::deque<Workspace> spaces_;
 };
 
-using Bench = BenchOf<Outwards>;
 using ConvoyBench = BenchOf<Convoy>;
 
 // A member of the tree in GROW TREE, epoch 1, with robot 9 as root.

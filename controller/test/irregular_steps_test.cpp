@@ -95,20 +95,5 @@ RC_GTEST_PROP(IrregularSteps, AConnectorLooksForALostBranchForAWhile, ()) {
   RC_ASSERT(takes_its_time(bench, [](const auto& state) { return state.dangling_ticks == 0; }));
 }
 
-// ---- paper ----
-
-RC_GTEST_PROP(IrregularStepsOfThePaper, TheTreeIsReconstructedEveryR, ()) {
-  const auto ends = [](const auto& state) { return state.phase != Phase::grow_tree; };
-  RC_ASSERT(takes_its_time(root<OutwardsLiteral>(), ends));
-  RC_ASSERT(takes_its_time(root<Inwards>(), ends));
-}
-
-RC_GTEST_PROP(IrregularStepsOfThePaper, ABarrierWaitsNoLongerThanItsTime, ()) {
-  auto bench = root<OutwardsLiteral>();
-  bench.state.phase = Phase::start_tree;
-  bench.put(7, {0.25F, 0}).epoch = 0;  // who never follows
-  RC_ASSERT(takes_its_time(bench, [](const auto& state) { return state.phase != Phase::start_tree; }));
-}
-
 }  // namespace
 }  // namespace banyan

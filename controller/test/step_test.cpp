@@ -35,7 +35,7 @@ struct Noise {
 };
 
 // What a robot may hear, sane or not, as long as it passes the wire.
-void babble(Noise& noise, std::uint32_t robots, TreeMessage& m) {
+template <class M> void babble_of_the_tree(Noise& noise, std::uint32_t robots, M& m) {
   const auto anybody = [&] { return noise.next() % 3 == 0 ? nobody : noise.word(robots); };
   m.id = noise.word(robots);
   m.role = static_cast<Role>(noise.word(4));
@@ -50,18 +50,23 @@ void babble(Noise& noise, std::uint32_t robots, TreeMessage& m) {
   m.depth = noise.word(8);
   m.tree_hops = static_cast<std::uint8_t>(noise.word(256));
   m.call_hops = static_cast<std::uint8_t>(noise.word(256));
-  for (RobotId* id : {&m.parent, &m.old_parent, &m.flood_parent, &m.grant, &m.request, &m.inserted_child, &m.new_root})
-    *id = anybody();
+  for (RobotId* id : {&m.parent, &m.old_parent, &m.flood_parent, &m.grant, &m.request, &m.new_root}) *id = anybody();
   m.flood_robots = noise.word(65535);
   m.subtree = noise.word(65535);
   m.count = noise.word(65535);
-  for (float* v : {&m.q_x, &m.q_y}) *v = noise.length(1e9F);
   for (std::int16_t* v : {&m.pull_x, &m.pull_y}) *v = noise.signed_word();
   for (Coordinate* v : {&m.centroid_x, &m.centroid_y}) v->bits = noise.signed_word();
   m.want = noise.word(65535);
 }
+void babble(Noise& noise, std::uint32_t robots, paper::Message& m) {
+  babble_of_the_tree(noise, robots, m);
+  m.hold = noise.word(robots);
+  m.q = {noise.length(1e9F), noise.length(1e9F)};
+}
 void babble(Noise& noise, std::uint32_t robots, HealingMessage& m) {
-  babble(noise, robots, static_cast<TreeMessage&>(m));
+  babble_of_the_tree(noise, robots, m);
+  m.inserted_child = noise.word(robots);
+  for (float* v : {&m.q_x, &m.q_y}) *v = noise.length(1e9F);
   for (RobotId* id : {&m.serves, &m.told, &m.task_serves, &m.task_holder}) *id = noise.word(robots);
   m.root_told = noise.word(2) != 0;
   m.root_size = noise.word(20);
@@ -78,8 +83,9 @@ void babble(Noise& noise, std::uint32_t robots, ConvoyMessage& m) {
 }
 
 // What packets do: their messages live as long as this.
-template <class Message, std::size_t capacity> struct Crowd {
-  std::array<Message, capacity> messages;
+template <class Kind, std::size_t capacity> struct Crowd {
+  using Heard = typename Kind::Heard;
+  std::array<typename Kind::Message, capacity> messages;
   std::array<Heard, capacity> heard;
   std::span<Heard> speak(Noise& noise, std::size_t count, std::uint32_t robots) {
     for (std::size_t k = 0; k < count; ++k) {
@@ -106,7 +112,7 @@ TEST(Step, StandsNonsenseWithoutTheHeap) {
   long taken = 0;
   int bad_wheels = 0, bad_messages = 0, steps_back = 0;
   for_each_kind([&]<class Kind>() {
-    Crowd<typename Kind::Message, 140> crowd;  // more than the table holds
+    Crowd<Kind, 140> crowd;  // more than the table holds
     const auto params = Kind::defaults();
     auto state = Kind::initial(1, true, false);
     bool sent = true;
@@ -151,7 +157,7 @@ template <class State> std::uint64_t hash(const State& state) {
 TEST(Step, IsAPureFunctionOfItsArguments) {
   for_each_kind([]<class Kind>() {
     Noise noise;
-    Crowd<typename Kind::Message, 20> crowd;
+    Crowd<Kind, 20> crowd;
     auto a = Kind::initial(1, false, false);
     auto b = a;
     const auto params = Kind::defaults();
@@ -259,7 +265,7 @@ template <class Kind> struct Sensing {
       root.heartbeat = static_cast<Serial>(100 + tick++);
       root.told = 1;
     }
-    Heard heard{&root, r.position, r.age_s};
+    typename Kind::Heard heard{&root, r.position, r.age_s};
     r.senses.obstacles = r.obstacles;
     return Kind::step(params, state, {{&heard, 1}, r.senses, test_platform});
   }
@@ -289,7 +295,7 @@ RC_GTEST_PROP(Sensors, WhateverTheySayVelocityAndMessageAreSound, ()) {
       RC_ASSERT(is_sound(robot.step(r)));
     }
     RC_ASSERT(is_sound(robot.steps(3)));
-    RC_ASSERT(std::isfinite(tree_report(robot.state).want));
+    RC_ASSERT(std::isfinite(Kind::report(robot.state).want));
   });
 }
 
@@ -333,7 +339,8 @@ TEST(Sensors, OneBadReadingMakesNoSecondRoot) {
       for (int t = 0; t < 20; ++t) step(false);
       EXPECT_TRUE(is_sound(step(true)));
       for (int t = 0; t < 60; ++t) step(false);
-      EXPECT_EQ(robot.state.root, (RootToken{1, Sensing<Kind>::root_id}));
+      EXPECT_EQ(robot.state.root.sequence, 1);
+      EXPECT_EQ(robot.state.root.id, Sensing<Kind>::root_id);
       EXPECT_EQ(robot.state.tally.elections, 0U);
     });
   });
@@ -365,7 +372,7 @@ TEST(Sensors, BadReadingsAreCounted) {
       Readings r = spoilt(Sensing<Kind>::sane(), bad, nan_m);
       robot.step(r);
       robot.step(r);
-      EXPECT_EQ(tree_report(robot.state).tally.rejected, 2U) << static_cast<int>(bad);
+      EXPECT_EQ(Kind::report(robot.state).tally.rejected, 2U) << static_cast<int>(bad);
     }
   });
 }

@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "banyan/algorithms/swarms.hpp"
-#include "banyan/algorithms/tree_algorithm.hpp"
+#include "banyan/algorithms/paper_algorithm.hpp"
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/measure/fiedler.hpp"
 #include "banyan/measure/recovery.hpp"
@@ -328,9 +327,10 @@ TEST(Observer, HeldTimeCountsFromCompletionOn) {
 }
 
 // outwards, but robot 2 calls itself root now and then, and counts what nobody does here.
-struct Pretending : CorrectedSwarm<outwards_step> {
-  static Output<HealingMessage> step(const HealingParams& params, HealingState& self, const Inputs<Heard>& inputs) {
-    Output<HealingMessage> output = outwards_step(params, self, inputs);
+using OutwardsSwarm = PaperSwarm<paper::outwards, paper::corrected>;
+struct Pretending : OutwardsSwarm {
+  static Output<Message> step(const Params& params, State& self, const Inputs<Heard>& inputs) {
+    Output<Message> output = OutwardsSwarm::step(params, self, inputs);
     if (self.id != 2 || self.phase_ticks % 16 < 9) return output;
     output.message.role = self.role = Role::root;
     self.tally.elections += 1;
@@ -339,7 +339,8 @@ struct Pretending : CorrectedSwarm<outwards_step> {
     return output;
   }
 };
-constexpr TreeAlgorithmOf<Pretending> pretender("pretender", "for this test", outwards_defaults);
+constexpr AlgorithmOf<Pretending> pretender(
+    {.name = "pretender", .summary = "for this test", .defaults = paper::outwards_column, .bind = bind});
 
 TEST(Observer, CountsTwoRootsElectionsAndReplacements) {
   World world(chain(6, 1.1), pretender);
@@ -364,15 +365,16 @@ TEST(Observer, CountsTwoRootsElectionsAndReplacements) {
 }
 
 // outwards, but its epochs are 15,000 apart, so the fifth comes after 65,535.
-struct Striding : CorrectedSwarm<outwards_step> {
+struct Striding : OutwardsSwarm {
   static constexpr int stride = 15000;
-  static Report report(const HealingState& self) {
-    Report report = CorrectedSwarm<outwards_step>::report(self);
+  static Report report(const State& self) {
+    Report report = OutwardsSwarm::report(self);
     report.epoch = static_cast<Serial>(stride * report.epoch);
     return report;
   }
 };
-constexpr TreeAlgorithmOf<Striding> striding("striding", "for this test", outwards_defaults);
+constexpr AlgorithmOf<Striding> striding(
+    {.name = "striding", .summary = "for this test", .defaults = paper::outwards_column, .bind = bind});
 
 TEST(Observer, CountsEpochsBeyondTheLastNumber) {
   Scenario s = chain(6, 1.1);
@@ -722,8 +724,7 @@ class Recount {
 TEST(Observer, AgreesWithARecountOfAHardRun) {
   for (const char* algorithm : {"outwards", "inwards"}) {
     for (const char* reading : {"literal", "corrected"}) {
-      const std::size_t message_bytes =
-          std::string(reading) == "literal" ? wire_size<TreeMessage>() : wire_size<HealingMessage>();
+      const std::size_t message_bytes = wire_size<paper::Message>();
       Scenario s = ring(30, 3, 6.0, 4);
       s.mission.algorithm = algorithm;
       s.mission.reading = reading;

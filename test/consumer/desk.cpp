@@ -2,8 +2,7 @@
 // A study of its own: a scenario as a user writes it, some ticks of the installed world under the
 // installed observer, by name and by an algorithm of its own; prints the version as the recordings carry it.
 #include <banyan/algorithms/algorithms.hpp>
-#include <banyan/algorithms/swarms.hpp>
-#include <banyan/algorithms/tree_algorithm.hpp>
+#include <banyan/algorithms/paper_algorithm.hpp>
 #include <banyan/config/config.hpp>
 #include <banyan/measure/observer.hpp>
 #include <banyan/version.hpp>
@@ -12,14 +11,11 @@
 
 namespace {
 
-constexpr banyan::TreeAlgorithmOf<banyan::CorrectedSwarm<banyan::inwards_step>> slow("slow",
-                                                                                     "inwards with a weaker pull",
-                                                                                     []() noexcept {
-                                                                                       banyan::HealingParams params =
-                                                                                           banyan::inwards_defaults();
-                                                                                       params.target_gain = 0.1F;
-                                                                                       return params;
-                                                                                     });
+constexpr banyan::PaperAlgorithmOf<banyan::paper::inwards> slow("slow", "inwards with a weaker pull", []() noexcept {
+  banyan::paper::Params params = banyan::paper::inwards_column();
+  params.target_gain = 0.1F;
+  return params;
+});
 
 }  // namespace
 

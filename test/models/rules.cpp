@@ -7,7 +7,6 @@
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/healing/hold.hpp"
 #include "banyan/controller/healing/tick.hpp"
-#include "banyan/controller/inwards.hpp"
 #include "banyan/controller/tree/census.hpp"
 #include "banyan/controller/tree/epoch.hpp"
 #include "banyan/controller/tree/label.hpp"
@@ -55,7 +54,8 @@ class Bench {
   static constexpr Platform platform{.communication_range_m = 1.0F, .wheel_limit_m_s = 0.1F};
   static HealingParams& params() {
     static HealingParams p = [] {
-      HealingParams short_waits = inwards_defaults();
+      HealingParams short_waits;
+      short_waits.liveness_rounds = 5.0F;
       short_waits.insertion_drives = 0.2F;
       short_waits.connector_rounds = 20.0F;
       return short_waits;

@@ -50,7 +50,7 @@ TEST(Clocks, WithoutLossEverybodyInLinkHearsEveryMessageOnceItSteps) {
   for (std::size_t i = 0; i < world.size(); ++i) links += world.links(i).size();
   EXPECT_EQ(world.packets_received() - before, 100 * links);
   for (std::size_t i = 0; i < world.size(); ++i) {
-    const TreeTable& table = tree_state(world.swarm(), i).neighbors;
+    const Neighbors& table = neighbors_of(world.swarm(), i);
     ASSERT_EQ(static_cast<std::size_t>(table.size()), world.links(i).size());
     for (int k = 0; k < table.size(); ++k) {
       const Vec2 d = rotate_back(world.headings()[i], world.positions()[table.id(k)] - world.positions()[i]);
@@ -71,7 +71,7 @@ TEST(Clocks, WhatWaitsIsCarriedAlong) {
     world.step();
     for (std::size_t i = 0; i < world.size(); ++i) {
       if (to_uniform(bits(s.seed, Purpose::clock_phase, i)) * s.clocks.substeps >= 1.0) continue;
-      const TreeTable& table = tree_state(world.swarm(), i).neighbors;
+      const Neighbors& table = neighbors_of(world.swarm(), i);
       for (int k = 0; k < table.size(); ++k) {
         if (table.age(k) > 0) continue;
         const Vec2 truth = rotate_back(world.headings()[i], world.positions()[table.id(k)] - world.positions()[i]);

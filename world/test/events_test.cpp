@@ -27,7 +27,7 @@ TEST(Events, TheDeadFallSilentAndStayWhereTheyAre) {
     for (std::size_t i = 0; i < world.size(); ++i) {
       const auto links = world.links(i);
       EXPECT_FALSE(std::binary_search(links.begin(), links.end(), 5U));
-      const TreeTable& table = tree_state(world.swarm(), i).neighbors;
+      const Neighbors& table = neighbors_of(world.swarm(), i);
       const int k = table.find(5);
       EXPECT_TRUE(i == 5 || k < 0 || table.age(k) > t) << i;
     }
@@ -155,7 +155,7 @@ TEST(Events, ANewTargetGoesToTheNearestSpare) {
   ASSERT_EQ(world.targets().size(), 3U);
   EXPECT_EQ(world.targets()[2].position, where);
   EXPECT_EQ(world.targets()[2].worker, expected);
-  EXPECT_TRUE(tree_state(world.swarm(), expected).is_worker);
+  EXPECT_TRUE(is_worker(world.swarm(), expected));
   EXPECT_EQ(world.reports()[expected].role, Role::worker);
 }
 
@@ -163,7 +163,7 @@ TEST(Events, WithNobodyLeftANewTargetIsNotAssigned) {
   Scenario s = ring("outwards", 4, 2, 1.5, 1);
   const World probe(s);
   std::size_t free_robot = 0;
-  while (tree_state(probe.swarm(), free_robot).is_worker || probe.reports()[free_robot].role == Role::root)
+  while (is_worker(probe.swarm(), free_robot) || probe.reports()[free_robot].role == Role::root)
     ++free_robot;
   s.events = {event(0.2, Die{free_robot}), event(0.5, AddTarget{{0.0, 1.0}})};
   World world(s);
@@ -255,11 +255,11 @@ TEST(Events, ATargetThatIsGivenUpHasNoWorkerAnyMore) {
   const std::size_t worker = world.targets()[1].worker;
   for (int t = 0; t < 30; ++t) world.step();
   EXPECT_TRUE(world.targets()[1].active);
-  EXPECT_TRUE(tree_state(world.swarm(), worker).is_worker);
+  EXPECT_TRUE(is_worker(world.swarm(), worker));
   world.step();
   EXPECT_FALSE(world.targets()[1].active);
   EXPECT_TRUE(world.targets()[0].active);
-  EXPECT_FALSE(tree_state(world.swarm(), worker).is_worker);
+  EXPECT_FALSE(is_worker(world.swarm(), worker));
   EXPECT_EQ(world.reports()[worker].serves, nobody);
   EXPECT_NE(world.reports()[worker].role, Role::worker);
   for (int t = 0; t < 300; ++t) {

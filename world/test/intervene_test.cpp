@@ -147,7 +147,7 @@ TEST(Intervene, MovesTheObstacleForBodiesRadioAndSensors) {
     world.step();
     EXPECT_EQ(world.links(0).size(), 1U) << "the radio goes through the wall now";
     EXPECT_FALSE(world.line_of_sight());
-    EXPECT_FALSE(tree_params(world.swarm()).line_of_sight) << "its robots know";
+    EXPECT_FALSE(inside(world.swarm(), [](const auto& s) { return s.params().line_of_sight; })) << "its robots know";
 
     world.intervene({.action = MoveObstacle{1, world.positions()[1] + Vec2{0.1, 0.0}}});
     for (int t = 0; t < 100; ++t) world.step();

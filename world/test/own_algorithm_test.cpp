@@ -5,15 +5,15 @@
 #include <stdexcept>
 
 #include "banyan/algorithms/algorithms.hpp"
-#include "banyan/algorithms/tree_algorithm.hpp"
+#include "banyan/algorithms/paper_algorithm.hpp"
 #include "worlds.hpp"
 
 namespace banyan::world {
 namespace {
 
 // inwards with another S.
-constexpr TreeAlgorithmOf<CorrectedSwarm<inwards_step>> mine("mine", "for this test", []() noexcept {
-  HealingParams params = inwards_defaults();
+constexpr PaperAlgorithmOf<paper::inwards> mine("mine", "for this test", []() noexcept {
+  paper::Params params = paper::inwards_column();
   params.safe_range = 0.725F;
   return params;
 });
@@ -55,7 +55,7 @@ TEST(OwnAlgorithm, DecidesWithItsOwnParameters) {
   const World world(Scenario{}, mine);
   EXPECT_EQ(world.scenario().mission.algorithm, "mine");
   EXPECT_EQ(&world.algorithm(), &mine);
-  EXPECT_FLOAT_EQ(tree_params(world.swarm()).safe_range, 0.725F);
+  inside(world.swarm(), [](const auto& swarm) { EXPECT_FLOAT_EQ(swarm.params().safe_range, 0.725F); });
   EXPECT_NE(hash_after_100_ticks(world), hash_after_100_ticks(World(Scenario{}, inwards())));
 }
 

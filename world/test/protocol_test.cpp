@@ -56,32 +56,41 @@ Scenario random_scenario(const Conditions& c, std::uint64_t seed) {
   return s;
 }
 
-std::string chain(const World& world, std::size_t i) {
+// What a robot remembers, whatever its algorithm.
+struct Memory {
+  RobotId id;
+  bool is_worker;
+  Role role;
+  Serial epoch;
+  Phase phase;
+  Serial seqno;
+  std::uint16_t label;
+  RobotId parent;
+  RootToken root;
+  RobotId new_root;
+};
+
+std::vector<Memory> memories(const World& world) {
+  return inside(world.swarm(), [&](const auto& swarm) {
+    std::vector<Memory> list;
+    for (std::size_t i = 0; i < world.size(); ++i) {
+      const auto& s = swarm.state(i);
+      list.push_back({s.id, s.is_worker, s.role, s.epoch, s.phase, s.seqno, s.label, s.parent,
+                      {s.root.sequence, s.root.id}, s.new_root});
+    }
+    return list;
+  });
+}
+
+std::string chain(const std::vector<Memory>& robots, std::size_t i) {
   std::string text;
-  for (int hop = 0; hop < 8 && i < world.size(); ++hop) {
-    const TreeState& s = tree_state(world.swarm(), i);
+  for (int hop = 0; hop < 8 && i < robots.size(); ++hop) {
+    const Memory& s = robots[i];
     text += std::to_string(i) + " [epoch " + std::to_string(s.epoch) + " seqno " + std::to_string(s.seqno) + " label " +
             std::to_string(s.label) + "] -> ";
     i = s.parent;
   }
   return text;
-}
-
-std::vector<TreeState> memories(const World& world) {
-  return inside(world.swarm(), [&](const auto& swarm) {
-    std::vector<TreeState> list;
-    for (std::size_t i = 0; i < world.size(); ++i) list.push_back(swarm.state(i));
-    return list;
-  });
-}
-
-// All whom the message of robot i names as their part in the tree.
-std::vector<RobotId> named(const World& world, std::size_t i) {
-  const TreeMessage& m = tree_message(world.swarm(), i);
-  std::vector<RobotId> ids{m.parent,  m.old_parent,     m.flood_parent, m.grant,
-                           m.request, m.inserted_child, m.new_root,     m.root.id};
-  if (world.algorithm().name() == "convoy") ids.push_back(swarm_as<ConvoySwarm>(world.swarm()).message(i).warned);
-  return ids;
 }
 
 class Protocol : public testing::TestWithParam<Conditions> {
@@ -105,34 +114,35 @@ class Protocol : public testing::TestWithParam<Conditions> {
 TEST_P(Protocol, ParentsNeverFormACycleAndAreAheadOfTheirChildren) {
   watch([](const World& world) {
     const std::size_t n = world.size();
+    const std::vector<Memory> robots = memories(world);
     for (std::size_t i = 0; i < n; ++i) {
-      const TreeState& child = tree_state(world.swarm(), i);
+      const Memory& child = robots[i];
       if (child.parent == nobody) continue;
       ASSERT_LT(child.parent, n);
-      const TreeState& parent = tree_state(world.swarm(), child.parent);
+      const Memory& parent = robots[child.parent];
       if (GetParam().algorithm != "convoy") {  // there workers relay
-        ASSERT_FALSE(parent.is_worker) << chain(world, i);
+        ASSERT_FALSE(parent.is_worker) << chain(robots, i);
       }
-      ASSERT_GE(parent.epoch, child.epoch) << chain(world, i);
+      ASSERT_GE(parent.epoch, child.epoch) << chain(robots, i);
       const bool ahead =
           parent.seqno > child.seqno || (parent.seqno == child.seqno && parent.label < child.label);
-      ASSERT_TRUE(parent.epoch > child.epoch || ahead) << chain(world, i);
+      ASSERT_TRUE(parent.epoch > child.epoch || ahead) << chain(robots, i);
       std::size_t top = i;
       std::size_t hops = 0;
       while (world.reports()[top].parent != nobody && hops <= n) top = world.reports()[top].parent, ++hops;
-      ASSERT_LE(hops, n) << "cycle: " << chain(world, i);
+      ASSERT_LE(hops, n) << "cycle: " << chain(robots, i);
     }
   });
 }
 
 TEST_P(Protocol, GossipOnlyGrows) {
-  std::vector<TreeState> before;
+  std::vector<Memory> before;
   watch(
       [&](const World& world) {
-        const std::vector<TreeState> states = memories(world);
+        const std::vector<Memory> states = memories(world);
         if (world.tick() == 1) before = states;
         for (std::size_t i = 0; i < states.size(); ++i) {
-          const TreeState& now = states[i];
+          const Memory& now = states[i];
           ASSERT_GE(now.epoch, before[i].epoch) << i;
           if (now.epoch == before[i].epoch) {
             ASSERT_GE(now.phase, before[i].phase) << i;
@@ -155,21 +165,21 @@ TEST_P(Protocol, ThereIsOneRootExceptDuringAHandOver) {
   int several = 0;
   watch([&](const World& world) {
     if (world.tick() == 1) several = 0;
-    const std::vector<TreeState> states = memories(world);
-    const auto has_lost_heir = [&](const TreeState& s) {
+    const std::vector<Memory> states = memories(world);
+    const auto has_lost_heir = [&](const Memory& s) {
       const auto links = world.links(s.id);
       return s.new_root != nobody && std::find(links.begin(), links.end(), s.new_root) == links.end();
     };
     const auto believers =
-        std::count_if(states.begin(), states.end(), [](const TreeState& s) { return s.role == Role::root; });
+        std::count_if(states.begin(), states.end(), [](const Memory& s) { return s.role == Role::root; });
     const auto roots = std::count_if(states.begin(), states.end(),
-                                     [&](const TreeState& s) { return s.role == Role::root && !has_lost_heir(s); });
+                                     [&](const Memory& s) { return s.role == Role::root && !has_lost_heir(s); });
     ASSERT_GE(believers, 1);
     ASSERT_LE(calm ? roots : believers, calm ? 2 : 5);
     several = believers > 1 ? several + 1 : 0;
     ASSERT_LE(several, calm ? 5 : 25) << "ticks with several roots in a row";
     // Nobody believes in a root that does not exist, and the newest token's owner is root.
-    for (const TreeState& s : states) ASSERT_LT(s.root.id == nobody ? RobotId{0} : s.root.id, states.size());
+    for (const Memory& s : states) ASSERT_LT(s.root.id == nobody ? RobotId{0} : s.root.id, states.size());
   });
 }
 
@@ -178,16 +188,19 @@ TEST_P(Protocol, MessagesNameRobotsThatExist) {
       [](const World& world) {
         const auto n = static_cast<RobotId>(world.size());
         for (std::size_t i = 0; i < n; ++i) {
-          const TreeMessage& m = tree_message(world.swarm(), i);
-          ASSERT_EQ(m.id, i);
-          for (const RobotId id : named(world, i))
-            ASSERT_TRUE(id == nobody || (id < n && (id != i || m.root.id == i))) << i;
-          ASSERT_NE(m.parent, m.id);
-          ASSERT_NE(m.old_parent, m.id);
-          ASSERT_EQ(m.role == Role::root, m.root.id == i) << i;
           inside(world.swarm(), [&](const auto& swarm) {
-            const auto wire = decode_fields<std::decay_t<decltype(swarm.message(i))>>(said(world, i));
-            ASSERT_TRUE(wire && *wire == swarm.message(i)) << i;
+            const auto& m = swarm.message(i);
+            ASSERT_EQ(m.id, i);
+            // All whom it names as their part in the tree.
+            std::vector<RobotId> named{m.parent,  m.old_parent, m.flood_parent, m.grant,
+                                       m.request, m.new_root,   m.root.id};
+            if constexpr (requires { m.warned; }) named.insert(named.end(), {m.warned, m.inserted_child});
+            for (const RobotId id : named) ASSERT_TRUE(id == nobody || (id < n && (id != i || m.root.id == i))) << i;
+            ASSERT_NE(m.parent, m.id);
+            ASSERT_NE(m.old_parent, m.id);
+            ASSERT_EQ(m.role == Role::root, m.root.id == i) << i;
+            const auto wire = decode_fields<std::decay_t<decltype(m)>>(said(world, i));
+            ASSERT_TRUE(wire && *wire == m) << i;
           });
         }
       },
@@ -211,7 +224,7 @@ TEST_P(Guarded, TheGuardBoundsEveryEdgeOfTheTree) {
           taken_at_m.assign(world.size(), 0.0);
         }
         const double delta_m =
-            world.scenario().radio.range_m * static_cast<double>(tree_params(world.swarm()).ideal_distance);
+            world.scenario().radio.range_m * inside(world.swarm(), [](const auto& swarm) { return static_cast<double>(swarm.params().ideal_distance); });
         for (std::size_t i = 0; i < world.size(); ++i) {
           const Report& s = world.reports()[i];
           const bool taken = s.parent != parents[i];

@@ -42,9 +42,9 @@ Vec2 seen(const World& world, std::size_t i, Vec2 p) {
   return rotate_back(world.headings()[i], p - world.positions()[i]);
 }
 
-const HealingMessage& message_of(const World& world, std::size_t i) {
-  return world.algorithm().name() == "outwards" ? swarm_as<CorrectedSwarm<outwards_step>>(world.swarm()).message(i)
-                                                : swarm_as<CorrectedSwarm<inwards_step>>(world.swarm()).message(i);
+const paper::Message& message_of(const World& world, std::size_t i) {
+  return world.algorithm().name() == "outwards" ? swarm_as<PaperSwarm<paper::outwards, paper::corrected>>(world.swarm()).message(i)
+                                                : swarm_as<PaperSwarm<paper::inwards, paper::corrected>>(world.swarm()).message(i);
 }
 
 void expect_near(Vec2 a, Vec2 b, const char* what) {
@@ -68,34 +68,25 @@ void expect_same(const World& here, const World& there, const std::vector<Vec2>&
   // Its motion since the last tick, and hence its commands and its odometry.
   expect_near(seen(here, i, last_here[i]), seen(there, i, last_there[i]), "motion");
 
-  const HealingMessage& a = message_of(here, i);
-  HealingMessage b = message_of(there, i);
-  ASSERT_NEAR(a.q_x, b.q_x, tolerance);
-  ASSERT_NEAR(a.q_y, b.q_y, tolerance);
+  const paper::Message& a = message_of(here, i);
+  paper::Message b = message_of(there, i);
+  ASSERT_NEAR(a.q.x, b.q.x, tolerance);
+  ASSERT_NEAR(a.q.y, b.q.y, tolerance);
   ASSERT_NEAR(a.pull_x, b.pull_x, tolerance * 16384);
   ASSERT_NEAR(a.pull_y, b.pull_y, tolerance * 16384);
   // Rounded on the wire: the last digit may differ.
   ASSERT_NEAR(a.centroid_x.value(), b.centroid_x.value(), 1.0F / per_range);
   ASSERT_NEAR(a.centroid_y.value(), b.centroid_y.value(), 1.0F / per_range);
   ASSERT_NEAR(a.want, b.want, 1);
-  b.q_x = a.q_x;
-  b.q_y = a.q_y;
+  b.q = a.q;
   b.pull_x = a.pull_x;
   b.pull_y = a.pull_y;
   b.centroid_x = a.centroid_x;
   b.centroid_y = a.centroid_y;
-  for (auto [one, other] : {std::pair(&a.root_x, &b.root_x), {&a.root_y, &b.root_y}, {&a.task_x, &b.task_x}, {&a.task_y, &b.task_y}}) {
-    ASSERT_NEAR(one->value(), other->value(), 1.0F / per_range);
-    *other = *one;
-  }
   b.want = a.want;
   ASSERT_EQ(a, b) << "says something else";
-  const TreeState& s = tree_state(here.swarm(), i);
-  const TreeState& o = tree_state(there.swarm(), i);
-  ASSERT_EQ(s.role, o.role);
-  ASSERT_EQ(s.spare_state, o.spare_state);
-  ASSERT_NEAR(s.pull.x, o.pull.x, tolerance);
-  ASSERT_NEAR(s.pull.y, o.pull.y, tolerance);
+  ASSERT_EQ(here.reports()[i].role, there.reports()[i].role);
+  ASSERT_EQ(here.reports()[i].spare_state, there.reports()[i].spare_state);
 }
 
 class Truth : public testing::TestWithParam<const char*> {};

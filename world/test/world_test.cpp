@@ -29,7 +29,7 @@ Vec2 truth(const World& world, std::size_t receiver, std::size_t sender) {
 // Calls visit(receiver, k) for every entry that was heard in the last tick.
 template <class Visit> void for_each_heard(const World& world, Visit visit) {
   for (std::size_t i = 0; i < world.size(); ++i) {
-    const TreeTable& table = tree_state(world.swarm(), i).neighbors;
+    const Neighbors& table = neighbors_of(world.swarm(), i);
     for (int k = 0; k < table.size(); ++k)
       if (table.age(k) == 0) visit(i, k);
   }
@@ -46,7 +46,7 @@ TEST(World, WithoutLossEverybodyHearsExactlyItsLinksWhereTheyAre) {
     std::size_t heard = 0;
     for_each_heard(world, [&](std::size_t i, int k) {
       ++heard;
-      const TreeTable& table = tree_state(world.swarm(), i).neighbors;
+      const Neighbors& table = neighbors_of(world.swarm(), i);
       const std::size_t sender = table.id(k);
       const auto links = world.links(i);
       ASSERT_TRUE(std::binary_search(links.begin(), links.end(), static_cast<std::uint32_t>(sender)));
@@ -87,7 +87,7 @@ TEST(World, LossIsDrawnForEveryPacketAndReceiver) {
         links += static_cast<double>(world.links(i).size());
         for (const std::uint32_t j : world.links(i)) {
           const auto heard = [&](std::size_t a, std::size_t b) {
-            const TreeTable& table = tree_state(world.swarm(), a).neighbors;
+            const Neighbors& table = neighbors_of(world.swarm(), a);
             const int k = table.find(static_cast<RobotId>(b));
             return k >= 0 && table.age(k) == 0;
           };
@@ -110,8 +110,8 @@ TEST(World, LatencyIsExact) {
     s.radio.latency_ticks = latency;
     s.radio.loss = 0.2;
     World world(s);
-    const auto swarm = [&]() -> const auto& { return swarm_as<CorrectedSwarm<outwards_step>>(world.swarm()); };
-    std::vector<std::vector<HealingMessage>> said;  // [tick][robot]
+    const auto swarm = [&]() -> const auto& { return swarm_as<PaperSwarm<paper::outwards, paper::corrected>>(world.swarm()); };
+    std::vector<std::vector<paper::Message>> said;  // [tick][robot]
     std::vector<std::vector<Vec2>> positions, headings;
     const auto note = [&] {
       said.emplace_back();
@@ -128,11 +128,9 @@ TEST(World, LatencyIsExact) {
         ++heard;
         ASSERT_GT(t, latency);
         const auto sent = static_cast<std::size_t>(t - latency);
-        const HealingState& memory = swarm().state(i);
-        const TreeTable& table = memory.neighbors;
+        const paper::Table& table = swarm().state(i).neighbors;
         const std::size_t sender = table.id(k);
-        EXPECT_EQ(table.message(k), said[sent][sender]) << latency << " at " << t;
-        EXPECT_EQ(memory.healing_standings[static_cast<std::size_t>(k)], said[sent][sender]) << latency << " at " << t;
+        EXPECT_EQ(table.messages[static_cast<std::size_t>(k)], said[sent][sender]) << latency << " at " << t;
         // Where the sender was then, seen from where the receiver is now: its odometry carried it along.
         const auto now = static_cast<std::size_t>(t);
         const Vec2 d = rotate_back(headings[now][i], positions[sent + 1][sender] - positions[now][i]);
@@ -156,7 +154,7 @@ TEST(World, SlotsLimitWhatARobotHearsAndTreatAllSendersAlike) {
     std::vector<int> count(30, 0);
     for_each_heard(world, [&](std::size_t i, int k) {
       ++count[i];
-      ++heard[i][tree_state(world.swarm(), i).neighbors.id(k)];
+      ++heard[i][neighbors_of(world.swarm(), i).id(k)];
     });
     for (std::size_t i = 0; i < 30; ++i) ASSERT_EQ(count[i], std::min<int>(5, static_cast<int>(world.links(i).size())));
   }
@@ -179,7 +177,7 @@ TEST(World, RangeAndBearingNoiseHaveTheirSigma) {
   for (int t = 0; t < 100; ++t) {
     world.step();
     for_each_heard(world, [&](std::size_t i, int k) {
-      const TreeTable& table = tree_state(world.swarm(), i).neighbors;
+      const Neighbors& table = neighbors_of(world.swarm(), i);
       const Vec2 d = truth(world, i, table.id(k));
       const Vec2 measured = believed_m(world, table, k);
       const double range = norm(measured) - norm(d);
@@ -269,10 +267,10 @@ TEST(World, StartsAsTheScenarioSays) {
   ASSERT_EQ(world.targets().size(), 3U);
   for (const Target& target : world.targets()) {
     EXPECT_NEAR(norm(target.position), 4.0, 1e-9);
-    EXPECT_TRUE(tree_state(world.swarm(), target.worker).is_worker);
+    EXPECT_TRUE(is_worker(world.swarm(), target.worker));
   }
   for (std::size_t i = 0; i < 16; ++i) {
-    EXPECT_EQ(tree_state(world.swarm(), i).id, i);
+    inside(world.swarm(), [i](const auto& swarm) { EXPECT_EQ(swarm.state(i).id, i); });
     EXPECT_EQ(world.reports()[i].role == Role::root, i == 4);
     EXPECT_EQ(world.alive()[i], 1);
     EXPECT_NEAR(norm(world.headings()[i]), 1.0, 1e-9);
@@ -286,11 +284,11 @@ TEST(World, TheScenarioSetsTheParameters) {
   s.radio.range_m = 2.5;
   s.robot.wheel_limit_m_s = 0.1;
   const World world(s);
-  EXPECT_NO_THROW(static_cast<void>(swarm_as<LiteralSwarm<inwards_literal_step>>(world.swarm())));
-  EXPECT_FLOAT_EQ(tree_params(world.swarm()).target_gain, 0.4F);
-  EXPECT_FLOAT_EQ(tree_params(world.swarm()).rounds_per_drive, 250.0F);
-  EXPECT_FLOAT_EQ(tree_params(world.swarm()).body_radius, 0.02816F);
-  EXPECT_FLOAT_EQ(tree_params(world.swarm()).ideal_distance, 0.7704205F);
+  const paper::Params& params = swarm_as<PaperSwarm<paper::inwards, paper::literal>>(world.swarm()).params();
+  EXPECT_FLOAT_EQ(params.target_gain, 0.4F);
+  EXPECT_FLOAT_EQ(params.rounds_per_drive, 250.0F);
+  EXPECT_FLOAT_EQ(params.body_radius, 0.02816F);
+  EXPECT_FLOAT_EQ(params.ideal_distance, 0.7704205F);
 }
 
 TEST(World, AnImpossibleScenarioIsRefusedWithAllItsFaults) {
@@ -336,7 +334,7 @@ TEST(World, WheelNoiseShowsInTheMotionButNotInTheOdometryOfIt) {
   for (int t = 0; t < 70; ++t) without.step();
   int remembered = 0;
   for (std::size_t i = 0; i < 12; ++i) {
-    const TreeTable& table = tree_state(without.swarm(), i).neighbors;
+    const Neighbors& table = neighbors_of(without.swarm(), i);
     const int k = table.find(static_cast<RobotId>(lost));
     if (i == lost || k < 0) continue;
     ++remembered;

@@ -111,7 +111,7 @@ inline void run_until(World& world, std::uint64_t tick) {
 }
 
 // Where a robot believes entry k of its table to be, m.
-inline Vec2 believed_m(const World& world, const TreeTable& table, int k) {
+inline Vec2 believed_m(const World& world, const Neighbors& table, int k) {
   return Vec2{table.position(k).x, table.position(k).y} * world.scenario().radio.range_m;
 }
 

@@ -17,7 +17,7 @@ Vec2 row_3_directional_f(const Robot& robot, Vec2 p_parent, Vec2 u) noexcept {
 // ---- Row 4: both ends of an edge keep it below delta ----
 
 void row_4_guard_edges(const Robot& robot, Guard& guard) noexcept {
-  const float longest = robot.params.ideal_distance - robot.self.table.spread();
+  const float longest = robot.params.ideal_distance - robot.self.neighbors.spread();
   for_each_edge(robot, [&](int k) {
     // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
     if (robot.alive(k) || robot.obstacles.empty()) guard.add(robot.position(k), longest, robot.params.guard_rate);
@@ -125,7 +125,7 @@ void row_t_guard_links(const Robot& robot, Guard& guard) noexcept {
     // In a grown tree only robots of its epoch wait for a hold, and those that have not heard of any.
     const bool may_wait = m.epoch == robot.self.epoch || m.phase == Phase::init || robot.self.phase < Phase::grow_tree;
     if (k == robot.hold || m.hold == robot.self.id || untied || (may_wait && is_untied(m)))
-      guard.add(robot.position(k), longest_kept - robot.self.table.spread(), rate);
+      guard.add(robot.position(k), longest_kept - robot.self.neighbors.spread(), rate);
   }
 }
 

@@ -41,7 +41,7 @@ void echo(Robot& robot) noexcept {
   self.flood_done = true;
   for (int k = 0; k < robot.size(); ++k) {
     const Message& m = robot.said(k);
-    if (robot.self.table.age(k) > silence_ticks) continue;
+    if (robot.self.neighbors.age(k) > silence_ticks) continue;
     const bool is_below = is_labelled(robot, k) && m.flood_parent == self.id;
     if (!is_labelled(robot, k) || (is_below && !m.flood_done)) self.flood_done = false;
     if (!is_below) continue;

@@ -12,6 +12,7 @@ Output<Message> step(const Growth& growth, const Reading& reading, const Params&
   begin_tick(robot, inputs);
   listen(robot);        // "go"
   accept_offer(robot);  // Select Root, the new root's side
+  robot.epoch = state.epoch;
   robot.parent = robot.find(state.parent);
   robot.old_parent = robot.find(state.old_parent);
   update_role(robot);
@@ -24,19 +25,19 @@ Output<Message> step(const Growth& growth, const Reading& reading, const Params&
   reading.find_hold(robot);
   reading.call_spares(robot);
   manage_spares(robot);                                                     // Grow Tree
+  select_root(robot);                                                       // Select Root
   const Vec2 wish = state.role == Role::spare ? u_spare(robot) : u(robot);  // Robot Motion
   Guard guard;
   for (const Reading::Limit limit : {reading.guard_edges, reading.guard_links, reading.guard_obstacles})
     limit(robot, guard);
   const Vec2 v = clamped(guard.apply(clamped(wish, 1.0F) * params.speed_gain), 1.0F);
-  select_root(robot);  // Select Root
   return {written(robot), drive(v, guard, params)};
 }
 
 // What is remembered is carried into the robot's present frame, and the neighbour table is brought up to date.
 void begin_tick(Robot& robot, const Inputs<Heard>& inputs) noexcept {
   State& self = robot.self;
-  Table& table = self.table;
+  Table& table = self.neighbors;
   const Carry carry = inputs.carry();
   if (self.target_known) self.target = carry.point(self.target);
   if (self.centroid_known) self.centroid = carry.point(self.centroid);
@@ -141,12 +142,12 @@ void add_to(Digest& digest, const State& s) noexcept {
   add(s.is_worker, s.target_known, s.centroid_known, s.spare_state, s.reference, s.target, s.pull, s.centroid,
       s.phase_ticks, s.done_ticks, s.label_wait_ticks, s.search_ticks, s.orphan_ticks, s.childless_ticks, s.offer_ticks,
       s.unserved_ticks, s.grant_ticks, s.request_ticks, s.ungranted_ticks);
-  add(s.tally.insertions, s.tally.handovers, s.tally.repairs, s.tally.rejected, s.table.size());
-  for (int k = 0; k < s.table.size(); ++k) {
-    add(s.table.age(k), s.table.position(k), s.table.measurements(k));
-    visit_fields(visit, s.table.messages[static_cast<std::size_t>(k)]);
+  add(s.tally.insertions, s.tally.handovers, s.tally.repairs, s.tally.rejected, s.neighbors.size());
+  for (int k = 0; k < s.neighbors.size(); ++k) {
+    add(s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k));
+    visit_fields(visit, s.neighbors.messages[static_cast<std::size_t>(k)]);
   }
-  s.table.filter().visit(add);
+  s.neighbors.filter().visit(add);
 }
 
 }  // namespace banyan::paper

@@ -289,14 +289,5 @@ TEST(Hold, BeforeAnybodyIsHeardNobodyDrives) {
   EXPECT_GT(convoy.step().motion.turn, 5.0F);
 }
 
-// ---- paper ----
-
-TEST(HoldOfThePaper, BeforeAnybodyIsHeardNobodyDrives) {
-  Bench bench;
-  bench.state = Outwards::initial(1, true, false);
-  bench.send({0.0F, 2.5F});
-  EXPECT_EQ(bench.step().motion.forward, 0.0F);
-}
-
 }  // namespace
 }  // namespace banyan

@@ -201,9 +201,5 @@ template <class Kind> void expect_news() {
 
 TEST(News, IsWhatTheRobotDidNotKnow) { expect_news<Convoy>(); }
 
-// ---- paper ----
-
-TEST(NewsOfThePaper, IsWhatTheRobotDidNotKnow) { expect_news<Inwards>(); }
-
 }  // namespace
 }  // namespace banyan

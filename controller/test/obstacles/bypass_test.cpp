@@ -169,19 +169,5 @@ TEST(KeepOff, SlidesAlongAndDoesNotPush) {
   EXPECT_EQ(guard.apply({-0.5F, 0.5F}), (Vec2{-0.5F, 0.5F}));
 }
 
-// ---- paper ----
-
-TEST(KeepOff, HoldsForThePapersAlgorithmsInTheCorrectedReadingOnly) {
-  const auto drives_on = []<class Kind>(BenchOf<Kind> bench) {
-    bench.send({1.5F, 0.0F});
-    bench.state.parent = 9;
-    bench.put(9, {-0.5F, 0.0F}).role = Role::root;
-    bench.obstacles = {{0.045F, 0.0F}};
-    return bench.steps(3).motion.forward > 0.05F;
-  };
-  EXPECT_TRUE(drives_on(grown<OutwardsLiteral>()));
-  EXPECT_FALSE(drives_on(grown<Outwards>()));
-}
-
 }  // namespace
 }  // namespace banyan

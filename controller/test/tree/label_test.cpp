@@ -114,20 +114,5 @@ TEST(Label, ARobotAtTheEndOfTheScaleTakesNoChildAndReportsIt) {
   }
 }
 
-// ---- paper ----
-
-// It waits although there may be nobody to wait for.
-TEST(LabelOfThePaper, WaitsForAnybody) {
-  Bench bench;
-  bench.state.epoch = 1;
-  bench.state.phase = Phase::start_tree;
-  bench.state.root = {1, 9};
-  bench.put(9, {0.95F, 0}).label = 0;
-  bench.steps(6);
-  EXPECT_EQ(bench.state.label, unknown_label);
-  bench.step();
-  EXPECT_EQ(bench.state.label, 243);
-}
-
 }  // namespace
 }  // namespace banyan

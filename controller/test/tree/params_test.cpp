@@ -37,22 +37,5 @@ TEST(Params, ThereMayBeParentsAndOneHeirAtATime) {
   EXPECT_TRUE(healing_fault(p).starts_with("claim_radius"));
 }
 
-// ---- paper ----
-
-TEST(ParamsOfThePaper, AreTableI) {
-  const HealingParams out = outwards_defaults();
-  EXPECT_FLOAT_EQ(out.ideal_distance, 0.95F);
-  EXPECT_FLOAT_EQ(out.target_gain, 0.49F);
-  EXPECT_FLOAT_EQ(out.reconfiguration_drives, 3.88F);
-  EXPECT_FLOAT_EQ(out.liveness_rounds, 12.0F);
-  const HealingParams in = inwards_defaults();
-  EXPECT_FLOAT_EQ(in.ideal_distance, 0.7704205F);
-  EXPECT_FLOAT_EQ(in.target_gain, 0.2539F);
-  EXPECT_FLOAT_EQ(BenchOf<InwardsLiteral>().tick().parent_range(), 1.0F) << "literal: parents up to C";
-  EXPECT_FLOAT_EQ(Bench().tick().parent_range(), 0.94F);
-  EXPECT_EQ(tree_fault(out), "");
-  EXPECT_EQ(tree_fault(in), "");
-}
-
 }  // namespace
 }  // namespace banyan

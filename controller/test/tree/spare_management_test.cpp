@@ -245,38 +245,5 @@ TEST(Call, AnUnansweredNeedSpreadsHopByHop) {
   EXPECT_EQ(bench.state.call_hops, nobody_calls);
 }
 
-// ---- paper ----
-
-using LiteralOwner = OwnerOf<OutwardsLiteral>;
-using LiteralSpare = SpareOf<OutwardsLiteral>;
-
-TEST_F(LiteralOwner, NeedsASpareEvenWhenEverybodyHasArrived) {
-  bench.send({-0.05F, 0});
-  EXPECT_EQ(bench.step().message.need, Need::need);
-}
-
-TEST_F(LiteralSpare, OrbitsItsReference) {
-  bench.say(7).need = Need::no_need;
-  bench.silence(7);
-  bench.move(5, {0.5F, 0});
-  const Motion v = bench.step().motion;
-  EXPECT_NEAR(v.forward, 0.0F, 5e-4F);
-  EXPECT_GT(std::abs(v.sideways), 0.05F);
-}
-
-using PaperOwner = OwnerOf<Outwards>;
-
-TEST_F(PaperOwner, PassesAChildsNeedUp) {
-  bench.move(5, {0.25F, 0});
-  bench.call_back();
-  auto& child = bench.put(7, {-0.5F, 0});
-  child.role = Role::worker;
-  child.parent = 1;
-  child.label = 400;
-  child.want = 500;
-  child.need = Need::need;
-  EXPECT_EQ(bench.step().message.need, Need::need);
-}
-
 }  // namespace
 }  // namespace banyan

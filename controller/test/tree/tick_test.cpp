@@ -84,7 +84,7 @@ TEST(HeardAge, TheTableHasWhatWasCarried) {
     typename Kind::Message message;
     message.id = 5;
     auto state = Kind::initial(1, false, false);
-    std::array heard{Heard{&message, path.seen({1.0, 0.5}, 0.05), 0.05F}};
+    std::array heard{typename Kind::Heard{&message, path.seen({1.0, 0.5}, 0.05), 0.05F}};
     const auto params = Kind::defaults();
     Kind::step(params, state, {heard, {.odometry = path.odometry(), .elapsed_s = 0.1F}, test_platform});
     ASSERT_EQ(state.neighbors.size(), 1);
@@ -131,22 +131,6 @@ TEST(Report, SaysWhatAnObserverMayKnow) {
   EXPECT_EQ(report.tally.repairs, 2U);
   s.label = 128;
   EXPECT_EQ(tree_report(s).label, 0.5F);
-}
-
-// ---- paper ----
-
-// What the printed algorithms make of orders: a worker is who is sent.
-TEST(Orders, OfTheTreeMakeAWorkerAndUnmakeIt) {
-  BenchOf<OutwardsLiteral> bench;
-  bench.state.phase = Phase::grow_tree;
-  bench.send({1.5F, 2.0F});
-  EXPECT_EQ(bench.step().message.want, 640);
-  EXPECT_EQ(bench.state.role, Role::worker);
-  bench.orders.target.reset();
-  EXPECT_EQ(bench.step({.forward_m = 1.5F}).message.want, 512) << "carried along while it is not sensed";
-  bench.call_back();
-  EXPECT_EQ(bench.step().message.want, 0);
-  EXPECT_FALSE(bench.state.is_worker);
 }
 
 }  // namespace

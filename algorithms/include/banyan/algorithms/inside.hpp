@@ -14,24 +14,22 @@ template <class Algorithm> [[nodiscard]] const SwarmOf<Algorithm>& swarm_as(cons
   return dynamic_cast<const SwarmOf<Algorithm>&>(swarm);
 }
 
-// Calls look(swarm) with a swarm of a tree algorithm as its own type; throws std::bad_cast if it is none.
+// Calls look(swarm) with a swarm of convoy or of the paper's as its own type; throws std::bad_cast if it is none.
 template <class Look> decltype(auto) inside(const Swarm& swarm, Look look) {
-  if (const auto* s = dynamic_cast<const SwarmOf<CorrectedSwarm<outwards_step>>*>(&swarm)) return look(*s);
-  if (const auto* s = dynamic_cast<const SwarmOf<CorrectedSwarm<inwards_step>>*>(&swarm)) return look(*s);
   if (const auto* s = dynamic_cast<const SwarmOf<ConvoySwarm>*>(&swarm)) return look(*s);
-  if (const auto* s = dynamic_cast<const SwarmOf<LiteralSwarm<outwards_literal_step>>*>(&swarm)) return look(*s);
-  if (const auto* s = dynamic_cast<const SwarmOf<LiteralSwarm<inwards_literal_step>>*>(&swarm)) return look(*s);
+  if (const auto* s = dynamic_cast<const SwarmOf<PaperSwarm<paper::outwards, paper::corrected>>*>(&swarm)) return look(*s);
+  if (const auto* s = dynamic_cast<const SwarmOf<PaperSwarm<paper::inwards, paper::corrected>>*>(&swarm)) return look(*s);
+  if (const auto* s = dynamic_cast<const SwarmOf<PaperSwarm<paper::outwards, paper::literal>>*>(&swarm)) return look(*s);
+  if (const auto* s = dynamic_cast<const SwarmOf<PaperSwarm<paper::inwards, paper::literal>>*>(&swarm)) return look(*s);
   throw std::bad_cast();
 }
 
-[[nodiscard]] inline const TreeState& tree_state(const Swarm& swarm, std::size_t i) {
-  return inside(swarm, [i](const auto& s) -> const TreeState& { return s.state(i); });
+// What they have in common.
+[[nodiscard]] inline const Neighbors& neighbors_of(const Swarm& swarm, std::size_t i) {
+  return inside(swarm, [i](const auto& s) -> const Neighbors& { return s.state(i).neighbors; });
 }
-[[nodiscard]] inline const TreeMessage& tree_message(const Swarm& swarm, std::size_t i) {
-  return inside(swarm, [i](const auto& s) -> const TreeMessage& { return s.message(i); });
-}
-[[nodiscard]] inline const TreeParams& tree_params(const Swarm& swarm) {
-  return inside(swarm, [](const auto& s) -> const TreeParams& { return s.params(); });
+[[nodiscard]] inline bool is_worker(const Swarm& swarm, std::size_t i) {
+  return inside(swarm, [i](const auto& s) { return s.state(i).is_worker; });
 }
 
 }  // namespace banyan

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <memory>
 #include <span>
 #include <string>
@@ -93,7 +94,7 @@ inline constexpr float most_counted_rounds = 50'000.0F;
 // The first time that these robots cannot count, in words.
 inline std::string time_fault(std::span<const float> values, std::span<const BoundParameter> rows,
                               const Machine& machine) {
-  const float most = most_counted_rounds / machine.rounds_per_drive;
+  const float most = std::round(10.0F * most_counted_rounds / machine.rounds_per_drive) / 10.0F;  // as it is read
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (rows[k].info->unit == "drives" && !(values[k] <= most))
       return std::string(rows[k].info->key) + " must be at most " + plain(most) + " for robots so slow, not " +

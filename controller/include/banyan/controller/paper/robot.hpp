@@ -32,7 +32,7 @@ struct State : Message {
   std::uint16_t childless_ticks = 0, offer_ticks = 0, unserved_ticks = 0, grant_ticks = 0;
   std::uint16_t request_ticks = 0, ungranted_ticks = 0;
   Tally tally;  // the algorithm never reads it
-  Table table;
+  Table neighbors;
 };
 
 struct Growth;   // outwards or inwards
@@ -46,25 +46,26 @@ struct Robot {
   State& self;
   std::span<const Vec2> obstacles;  // nearest point of each within the proximity sensor's reach, own frame, C
   int elapsed_ticks;                // since the last step
+  Serial epoch = 0;                 // when the step began: select_root() may open the next
   int parent = -1, old_parent = -1;
   int hold = -1;    // without a parent: the neighbour that I stay with (row t)
   int caller = -1;  // the neighbour through which an unanswered need is nearest (row b)
 
-  [[nodiscard]] int size() const noexcept { return self.table.size(); }
-  [[nodiscard]] int find(RobotId id) const noexcept { return self.table.find(id); }
-  [[nodiscard]] RobotId id(int k) const noexcept { return k < 0 ? nobody : self.table.id(k); }
-  [[nodiscard]] const Message& said(int k) const noexcept { return self.table.messages[static_cast<std::size_t>(k)]; }
-  [[nodiscard]] Vec2 position(int k) const noexcept { return self.table.position(k); }
-  [[nodiscard]] float range(int k) const noexcept { return self.table.range(k); }
-  [[nodiscard]] bool alive(int k) const noexcept { return k >= 0 && self.table.alive(k); }
-  [[nodiscard]] bool heard_now(int k) const noexcept { return self.table.age(k) == 0; }
+  [[nodiscard]] int size() const noexcept { return self.neighbors.size(); }
+  [[nodiscard]] int find(RobotId id) const noexcept { return self.neighbors.find(id); }
+  [[nodiscard]] RobotId id(int k) const noexcept { return k < 0 ? nobody : self.neighbors.id(k); }
+  [[nodiscard]] const Message& said(int k) const noexcept { return self.neighbors.messages[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] Vec2 position(int k) const noexcept { return self.neighbors.position(k); }
+  [[nodiscard]] float range(int k) const noexcept { return self.neighbors.range(k); }
+  [[nodiscard]] bool alive(int k) const noexcept { return k >= 0 && self.neighbors.alive(k); }
+  [[nodiscard]] bool heard_now(int k) const noexcept { return self.neighbors.age(k) == 0; }
   [[nodiscard]] bool is_root() const noexcept { return self.root.id == self.id; }
   [[nodiscard]] bool names_me(int k) const noexcept {
     return said(k).parent == self.id || said(k).old_parent == self.id;
   }
   // A robot that has not entered this epoch yet names its parent of the last one: an old child.
   [[nodiscard]] bool is_child(int k) const noexcept {
-    return alive(k) && said(k).parent == self.id && said(k).epoch == self.epoch;
+    return alive(k) && said(k).parent == self.id && said(k).epoch == epoch;
   }
   [[nodiscard]] bool has_child() const noexcept {
     return any([&](int k) { return is_child(k); });
