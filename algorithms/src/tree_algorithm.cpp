@@ -20,16 +20,16 @@ class Convoy final : public TreeAlgorithmOf<ConvoySwarm> {
   using TreeAlgorithmOf::TreeAlgorithmOf;
   [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
     if (!setup.platform.battery) return TreeAlgorithmOf::make(setup, members);
-    return std::make_unique<SwarmOf<PoweredConvoySwarm>>(with_room_for_relief(params(setup)), setup.platform, members, setup.history);
+    return std::make_unique<SwarmOf<PoweredConvoySwarm>>(with_room_for_relief(params(setup)), setup.platform, members,
+                                                         setup.history);
   }
 };
 
 }  // namespace
 
 const Algorithm& convoy() noexcept {
-  static constexpr Convoy algorithm("convoy",
-                                    "a sparse tree that its workers tow; spares join near the root, without travelling",
-                                    convoy_defaults);
+  static constexpr Convoy algorithm(
+      "convoy", "a sparse tree that its workers tow; spares join near the root, without travelling", convoy_defaults);
   return algorithm;
 }
 

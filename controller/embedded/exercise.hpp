@@ -40,8 +40,8 @@ inline void add_all(std::span<const std::uint8_t> wire, Digest& digest) noexcept
 // The state's hash belongs to the comparison of two machines, but no robot needs it: firmware is measured without.
 inline constexpr bool hashes_state = BANYAN_EXERCISE_HASHES_STATE;
 
-// A thousand ticks of a robot. In each, two of three neighbours send a message from places on a slowly turning ring, and
-// the robot moves. Returns a hash of all motions, of every byte that travels and of the state at the end.
+// A thousand ticks of a robot. In each, two of three neighbours send a message from places on a slowly turning ring,
+// and the robot moves. Returns a hash of all motions, of every byte that travels and of the state at the end.
 template <class Heard, class Message, class State, class Step>
 std::uint64_t exercise(Step step, Drive drive, State& state, Message said) noexcept {
   std::array<std::optional<Message>, neighbors> received;

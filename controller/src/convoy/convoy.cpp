@@ -111,8 +111,7 @@ bool needs_spare(const ConvoyRobot& robot) noexcept {
   const bool hidden = robot.table().age(robot.parent) > std::max(silence_ticks, usual_silence_ticks(robot));
   // A connector may have been made a worker: then it is the parent that has to go on.
   const TreeStanding& parent = robot.table().message(robot.parent);
-  const bool wanted =
-      robot.self.want > 0.0F || is_held_back(robot) || (parent.role == Role::worker && parent.want > 0);
+  const bool wanted = robot.self.want > 0.0F || is_held_back(robot) || (parent.role == Role::worker && parent.want > 0);
   return (d > robot.params.recruitment_distance - asks_sooner * robot.table().spread() && wanted) ||
          ((hidden || robot.self.corners.pinned || is_anchored(robot)) && d > robot.params.shortest_split);
 }
@@ -166,8 +165,7 @@ LabelRule label_rule(const ConvoyRobot& robot) noexcept {
   const ConvoyState& self = robot.self;
   LabelRule rule{.waits_for_anybody = false};
   const bool is_member = self.old_parent != nobody || robot.useful_children > 0;
-  if (has_arrived(robot) && is_member && self.phase_ticks < edge_wait_ticks)
-    rule.reach = longest_link;
+  if (has_arrived(robot) && is_member && self.phase_ticks < edge_wait_ticks) rule.reach = longest_link;
   return rule;
 }
 
@@ -210,8 +208,8 @@ static_assert(sizeof(PoweredConvoyState) <= most_state_bytes);
 
 ConvoyParams convoy_defaults() noexcept {
   ConvoyParams p;
-  p.ideal_distance = 0.95F;        // G: no edge outgrows it
-  p.safe_range = 0.90F;            // the root and junctions are towed only beyond it
+  p.ideal_distance = 0.95F;         // G: no edge outgrows it
+  p.safe_range = 0.90F;             // the root and junctions are towed only beyond it
   p.recruitment_distance = 0.825F;  // a longer edge asks for a spare
   p.avoidance_range = 0.18F;
   p.interaction_gain = 0.05F;
@@ -295,7 +293,7 @@ static Motion tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMessag
                         .prefers = [&](int a, int b) { return is_better_parent(robot, a, b); }});
   if (robot.power != nullptr) {
     watch_charge(*robot.power, inputs.charge(), inputs.orders());  // must I be relieved?
-    watch_relief(*robot.power);                   // whom do I relieve?
+    watch_relief(*robot.power);                                    // whom do I relieve?
   }
   heed_live_calls(robot);    // for a second path
   take_part_in_plan(robot);  // chains from target to target

@@ -34,8 +34,8 @@ float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
   const bool clear = sees_clearly(robot, k, p.clearance);
   if (!clear && !(urgent && sees_clearly(robot, k, narrow * p.clearance))) return impossible;
   const bool leaves = m.role == Role::worker && robot.self.want > 0.0F;  // it cannot be towed
-  return distance_to_segment(table.position(k), Vec2{}, table.position(robot.parent)) + (spare || leaves ? 1.0F : 0.0F) +
-         (clear ? 0.0F : costs_unclear);
+  return distance_to_segment(table.position(k), Vec2{}, table.position(robot.parent)) +
+         (spare || leaves ? 1.0F : 0.0F) + (clear ? 0.0F : costs_unclear);
 }
 
 }  // namespace

@@ -194,7 +194,8 @@ void shed(ConvoyRobot& robot) noexcept {
   robot.add_elapsed(self.short_ticks);
   constexpr float sooner = 0.45F;  // once it is known that robots are too few
   const bool known = banyan::any_of(all, [](const Task& t) { return t.holder == nobody || t.times_put_off > 0; });
-  if (self.short_ticks <= robot.params.rounds((known ? sooner : 1.0F) * robot.params.shed_after_drives) || !is_short) return;
+  if (self.short_ticks <= robot.params.rounds((known ? sooner : 1.0F) * robot.params.shed_after_drives) || !is_short)
+    return;
   self.shed = least_worth(robot);
   self.short_ticks = 0;
 }
@@ -205,8 +206,7 @@ int least_robots(const ConvoyRobot& robot, const Task& task) noexcept {
   float gap = far;
   for (const Task& other : robot.self.known_tasks())
     if (other.holder != nobody) gap = std::min(gap, distance_to_segment(task.target, other.target, Vec2{}));
-  return gap < far ? static_cast<int>((gap - robot.params.arrival_distance) / robot.params.ideal_distance) + 1
-                       : 1;
+  return gap < far ? static_cast<int>((gap - robot.params.arrival_distance) / robot.params.ideal_distance) + 1 : 1;
 }
 
 // Once all others are held and spares may suffice, a target that was put off is tried again: soon if there are more

@@ -11,7 +11,7 @@
 namespace banyan {
 namespace {
 
-constexpr int period = 20;  // ticks
+constexpr int period = 20;          // ticks
 constexpr float shorter_by = 0.1F;  // of C: an edge so much shorter is worth a change of parent
 
 // Whether neighbour k may carry a branch that has arrived: at rest itself, and not about to leave the tree.

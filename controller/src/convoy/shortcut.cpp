@@ -111,8 +111,7 @@ bool is_rooted_in_sight(const ConvoyRobot& robot, int k) noexcept {
 }
 
 bool may_be_parent(const ConvoyRobot& robot, int k, float range) noexcept {
-  return robot.table().range(k) <= range && !is_leaving(robot, k) && is_ahead(robot, k) &&
-         is_rooted_in_sight(robot, k);
+  return robot.table().range(k) <= range && !is_leaving(robot, k) && is_ahead(robot, k) && is_rooted_in_sight(robot, k);
 }
 
 void take_shortcuts(ConvoyRobot& robot) noexcept {

@@ -263,9 +263,7 @@ Vec2 sliding(const ConvoyRobot& robot, int way) noexcept {
     for (int n = 0; n <= robot.children.size; ++n) {
       const int k = tree_neighbor(robot, n);
       if (k < 0 || k == way) continue;
-      const float slack =
-          std::clamp((thrifty(p, p.compact_distance) - table.range(k)) / compact_width,
-                     -1.0F, 1.0F);
+      const float slack = std::clamp((thrifty(p, p.compact_distance) - table.range(k)) / compact_width, -1.0F, 1.0F);
       const Vec2 away = -unit(table.position(k));
       if (const float too_fast = dot(u, away) - slack; too_fast > 0.0F) u += away * -too_fast;
     }
@@ -349,8 +347,7 @@ Vec2 before_tree(const ConvoyRobot& robot) noexcept {
   }
   const Vec2 on = pull_past_obstacles(robot) + repulsion(robot);
   if (robot.hold < 0) return on;
-  const float back =
-      ramp(robot.table().range(robot.hold), p.recruitment_distance - 0.5F * hold_width, hold_width);
+  const float back = ramp(robot.table().range(robot.hold), p.recruitment_distance - 0.5F * hold_width, hold_width);
   return on * (1.0F - back) + unit(robot.table().position(robot.hold)) * back;
 }
 
@@ -381,8 +378,7 @@ Vec2 way_round(const ConvoyRobot& robot, int k) noexcept {
 
 bool passes_pull_on(const ConvoyRobot& robot, Vec2& pull) noexcept {
   const ConvoyState& self = robot.self;
-  if (!self.is_worker || robot.target == nullptr || norm(*robot.target) >= robot.params.arrival_distance)
-    return false;
+  if (!self.is_worker || robot.target == nullptr || norm(*robot.target) >= robot.params.arrival_distance) return false;
   const TreeTable& table = robot.table();
   int best = -1;
   for (const int k : robot.children)

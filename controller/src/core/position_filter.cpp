@@ -7,13 +7,13 @@
 namespace banyan {
 namespace {
 
-constexpr float wander = 4.0F;           // the random walk, in longest ways of a tick: a course lasts a second or two
-constexpr float explained = 1.25F;       // of that way: what motion explains of an innovation, and odometry's own error
+constexpr float wander = 4.0F;      // the random walk, in longest ways of a tick: a course lasts ten or twenty rounds
+constexpr float explained = 1.25F;  // of that way: what motion explains of an innovation, and odometry's own error
 constexpr float newest = 1.0F / 256.0F;  // weight of an innovation: what counts are the last few hundred
 // Of the walk: a shove in a crowd that odometry does not see is forgotten at once.
 constexpr float noticed = 1.0F / 32.0F;
-constexpr float bearing_lever = 0.5F;     // C: at this distance a bearing is compared with it
-constexpr float surely = 0.99F;           // and what it explains whatever the roundings
+constexpr float bearing_lever = 0.5F;    // C: at this distance a bearing is compared with it
+constexpr float surely = 0.99F;          // and what it explains whatever the roundings
 constexpr float shortest_lever = 0.25F;  // nearer, a neighbour's own motion turns its bearing by much
 
 float squared_excess(float innovation, float explained_by_motion) noexcept {
@@ -56,15 +56,14 @@ Vec2 PositionFilter::fuse(Vec2 predicted, Vec2 measured, int ticks, int measurem
 void PositionFilter::learn(Vec2 predicted, Vec2 measured, int ticks) noexcept {
   const float by_motion = explained * way_ * static_cast<float>(ticks);
   const float least = surely * by_motion;
-  if (!has_seen_noise() && squared_norm(measured - predicted) <= least * least)
-    return;  // neither excess is above 0
+  if (!has_seen_noise() && squared_norm(measured - predicted) <= least * least) return;  // neither excess is above 0
   const float expected = norm(predicted);
   const float measured_range = norm(measured);
   if (!(expected > 0.0F) || !(measured_range > 0.0F)) return;
   range_ms_ += (squared_excess(measured_range - expected, by_motion) - range_ms_) * newest;
   const float lever = std::max(expected, shortest_lever);
-  const float room = cross(predicted, measured) / measured_range;  // at the distance where it was expected
-  bearing_ms_ += (squared_excess(room, by_motion) / (lever * lever) - bearing_ms_) * newest;
+  const float across = cross(predicted, measured) / measured_range;  // at the distance where it was expected
+  bearing_ms_ += (squared_excess(across, by_motion) / (lever * lever) - bearing_ms_) * newest;
 }
 
 }  // namespace banyan

@@ -15,8 +15,7 @@ constexpr float well_in_range = 0.85F;  // of C: a worker farther away may only 
 bool takes_charge(const HealingRobot& robot, const Task& task) noexcept {
   const TreeTable& table = robot.table();
   const int holder = table.find(task.holder);
-  if (holder < 0 || !fades(robot, holder) || table.range(holder) > well_in_range)
-    return false;
+  if (holder < 0 || !fades(robot, holder) || table.range(holder) > well_in_range) return false;
   const int parent = table.find(up_of(table.message(holder)));
   return parent < 0 || fades(robot, parent) || table.message(parent).subtree_workers > task_capacity;
 }
@@ -26,8 +25,7 @@ bool takes_charge(const HealingRobot& robot, const Task& task) noexcept {
 bool has_witnessed(const HealingRobot& robot, const Task& task) noexcept {
   const int holder = robot.table().find(task.holder);
   return holder >= 0 && robot.tie_ticks == 0 && task.reached && fades(robot, holder) &&
-         robot.table().range(holder) <= longest_link &&
-         is_in_the_clear(robot, holder);
+         robot.table().range(holder) <= longest_link && is_in_the_clear(robot, holder);
 }
 
 // The child has taken another parent, and its workers along, or serves none any more.

@@ -64,7 +64,8 @@ bool outlives_root(const HealingRobot& robot) noexcept {
   const HealingParams& p = robot.params;
   const float away = norm(robot.self.root_at);
   if (away > p.claim_radius) return false;
-  return robot.self.silence_ticks > 2 * robot.liveness_ticks() + whole(p.claim_after_rounds + p.claim_spread_rounds * away);
+  return robot.self.silence_ticks >
+         2 * robot.liveness_ticks() + whole(p.claim_after_rounds + p.claim_spread_rounds * away);
 }
 
 // No root has ever been heard: it died too early. The robot with the smallest id among its neighbours becomes root.

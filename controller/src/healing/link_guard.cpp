@@ -18,8 +18,7 @@ void guard_link(const HealingRobot& robot, int k, float longest, Guard& guard) n
   const TreeTable& table = robot.table();
   const float strayed = strayed_way(robot, k);
   float limit = longest - table.spread() - strayed;
-  if (robot.has_bursts() && strayed > 0.0F)
-    limit = std::max(limit, std::min(table.range(k), near) - table.spread());
+  if (robot.has_bursts() && strayed > 0.0F) limit = std::max(limit, std::min(table.range(k), near) - table.spread());
   guard.add(table.position(k), limit, robot.params.guard_rate);
 }
 

@@ -28,7 +28,8 @@ int missed(const HealingRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   if (table.missed() == 0) return -1;
   for (int k = 0; k < table.size(); ++k)
-    if (table.age(k) == robot.elapsed_ticks && table.range(k) <= longest_link) return is_in_the_clear(robot, k) ? k : -1;
+    if (table.age(k) == robot.elapsed_ticks && table.range(k) <= longest_link)
+      return is_in_the_clear(robot, k) ? k : -1;
   return -1;
 }
 

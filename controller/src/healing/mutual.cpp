@@ -69,8 +69,7 @@ void find_gap(HealingRobot& robot) noexcept {
   self.called_ticks = static_cast<std::uint8_t>(std::max(self.called_ticks - robot.elapsed_ticks, 0));
   // A call is passed on away from the root only: it would never end if two robots called each other.
   const int caller = caller_of(robot);
-  self.calls = robot.gap >= 0 || (caller >= 0 && is_ahead(robot, caller) &&
-                                  table.range(caller) > called_to);
+  self.calls = robot.gap >= 0 || (caller >= 0 && is_ahead(robot, caller) && table.range(caller) > called_to);
 }
 
 bool closes_gap(const HealingRobot& robot, Vec2& u) noexcept {

@@ -11,7 +11,7 @@ namespace banyan {
 namespace {
 
 constexpr float regroup_for_drives = 4.0F;  // at most, then it waits again
-constexpr int lost_ticks = 22;          // an orphan that has found no hold for so long has none in reach
+constexpr int lost_ticks = 22;              // an orphan that has found no hold for so long has none in reach
 
 bool is_cut_off(const HealingRobot& robot) noexcept {
   return robot.self.silence_ticks >
@@ -80,7 +80,8 @@ void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept {
     return;
   }
   const int after_ticks = robot.params.rounds(robot.params.regroup_after_drives);
-  if (self.unserved_ticks >= robot.params.rounds(robot.params.regroup_after_drives + regroup_for_drives)) self.unserved_ticks = 0;
+  if (self.unserved_ticks >= robot.params.rounds(robot.params.regroup_after_drives + regroup_for_drives))
+    self.unserved_ticks = 0;
   else if (regroups || self.unserved_ticks < after_ticks || self.stalled_ticks >= after_ticks)
     robot.add_elapsed(self.unserved_ticks);
 }

@@ -263,8 +263,7 @@ int way_of_news_ticks(const HealingRobot& robot, const Task& task) noexcept {
   const HealingState& self = robot.self;
   const float in = self.root_known ? distance(self.root_at, task.target) : 0.0F;
   const float out = from_fixed(self.label);
-  return static_cast<int>((in + out) / news_hop *
-                          static_cast<float>(self.task_count));
+  return static_cast<int>((in + out) / news_hop * static_cast<float>(self.task_count));
 }
 
 // Where robots forget, an answer comes straight from near the target, in turn with all that is urgent, which has every
@@ -290,8 +289,8 @@ void succeed(HealingRobot& robot) noexcept {
       continue;
     const int again_ticks = task.gave_up ? p.rounds(second_try_drives) : 0;  // others first
     const int way_ticks = self.forgets ? way_of_answer_ticks(robot, task) : way_of_news_ticks(robot, task);
-    const int patience_ticks =
-        least_ticks + way_ticks + again_ticks + whole(p.succession_after_rounds + p.succession_spread_rounds * norm(task.target));
+    const int patience_ticks = least_ticks + way_ticks + again_ticks +
+                               whole(p.succession_after_rounds + p.succession_spread_rounds * norm(task.target));
     const int rare_ticks = self.forgets ? 0 : gap_patience * self.news_gap / per_tick;  // doubt has waited already
     if (task.age_ticks > std::max(patience_ticks, rare_ticks)) return take_over(robot, task);
   }

@@ -9,7 +9,7 @@ namespace banyan {
 namespace {
 
 constexpr float target_moved = 0.15F;  // in one step: progress counts from the start again
-constexpr float straying = 0.2F;        // of v
+constexpr float straying = 0.2F;       // of v
 
 }  // namespace
 
@@ -48,8 +48,7 @@ void follow_orders(HealingRobot& robot, const Orders& orders) noexcept {
   if (orders.target) {
     const float off = self.target_known ? distance(*orders.target, self.target) : 0.0F;
     if (off > target_moved) self.progress = {};
-    robot.target_strays =
-        off > straying * robot.params.way_in_a_round() * static_cast<float>(robot.elapsed_ticks);
+    robot.target_strays = off > straying * robot.params.way_in_a_round() * static_cast<float>(robot.elapsed_ticks);
     self.target = *orders.target;
     self.target_known = true;
   }
@@ -61,7 +60,7 @@ void carry_memory(HealingState& self, const Carry& carry) noexcept {
   self.root_at = carry.point(self.root_at);
   self.lost_child = carry.point(self.lost_child);
   for (Task& task : self.known_tasks()) task.target = carry.point(task.target);
-  if (++self.turn == 0) self.turn = 1U << 15;  // what belongs to the first seconds does not come again
+  if (++self.turn == 0) self.turn = 1U << 15;  // what belongs to the first rounds does not come again
   carry_detour(self.detour, carry);
 }
 

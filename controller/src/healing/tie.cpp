@@ -57,7 +57,8 @@ float strayed_way(const HealingRobot& robot, int k) noexcept {
   if (robot.self.phase == Phase::init) return 0.0F;  // nobody near has set out, and beyond it others may hear me
   if ((robot.table().alive(k) && !robot.has_bursts()) || !is_in_the_clear(robot, k)) return 0.0F;
   const TreeParams& p = robot.params;
-  return p.speed_gain * p.way_in_a_round() * static_cast<float>(robot.has_bursts() ? ticks : std::min(ticks, at_most_ticks));
+  return p.speed_gain * p.way_in_a_round() *
+         static_cast<float>(robot.has_bursts() ? ticks : std::min(ticks, at_most_ticks));
 }
 
 }  // namespace banyan

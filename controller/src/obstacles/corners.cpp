@@ -16,12 +16,12 @@ namespace banyan {
 namespace {
 
 constexpr float sight_margin = 0.015F;  // C: own motion brings no line of sight nearer to a corner than this
-constexpr float sight_width = 0.06F;   // robots make room for lines nearer to a corner than this
-constexpr float hinge_width = 0.15F;   // the parent is told of a corner so near to the edge
+constexpr float sight_width = 0.06F;    // robots make room for lines nearer to a corner than this
+constexpr float hinge_width = 0.15F;    // the parent is told of a corner so near to the edge
 constexpr float pin_width = 0.03F;
 constexpr float pin_shortest = 0.15F;  // a parent nearer than this need not come up
 constexpr float spacing = 0.03F;       // between remembered points
-constexpr float least_lever = 0.1F;      // with less, my motion hardly moves the line there;
+constexpr float least_lever = 0.1F;    // with less, my motion hardly moves the line there;
 // But the body of a former parent lies beside the robot that is the parent now.
 constexpr float least_lever_body = 0.02F;
 constexpr float forget = 1.0F;  // of C: points farther away are forgotten, since no edge is longer
@@ -43,10 +43,10 @@ template <class Visit> void for_each_obstacle(const TreeRobot& robot, const Corn
 
 // An obstacle point beside the segment from me to a neighbour.
 struct Threat {
-  Vec2 towards;    // unit, from the segment to the point
-  float room;  // the distance of its surface from the segment
-  float lever;     // how far the segment moves there when I move by 1
-  bool is_body;    // not a point of an obstacle
+  Vec2 towards;  // unit, from the segment to the point
+  float room;    // the distance of its surface from the segment
+  float lever;   // how far the segment moves there when I move by 1
+  bool is_body;  // not a point of an obstacle
 };
 
 void for_each_threat(const TreeRobot& robot, const Corners& corners, Vec2 neighbor,
@@ -75,9 +75,8 @@ void for_each_edge_of_both_trees(const TreeRobot& robot, FunctionRef<void(int)> 
 // How far a point is from the nearest of my tree edges: the farther, the less it matters.
 float to_edges(const TreeRobot& robot, Vec2 p) noexcept {
   float nearest = norm(p);
-  for_each_edge_of_both_trees(robot, [&](int k) {
-    nearest = std::min(nearest, distance_to_segment(p, Vec2{}, robot.table().position(k)));
-  });
+  for_each_edge_of_both_trees(
+      robot, [&](int k) { nearest = std::min(nearest, distance_to_segment(p, Vec2{}, robot.table().position(k))); });
   return nearest;
 }
 
@@ -195,7 +194,8 @@ bool is_heard_through(const TreeRobot& robot, Vec2 center) noexcept {
   constexpr float well_inside = 0.5F;  // of the radius: what is remembered drifts
   const TreeTable& table = robot.table();
   for (int k = 0; k < table.size(); ++k)
-    if (table.age(k) == 0 && distance_to_segment(center, Vec2{}, table.position(k)) < well_inside * robot.params.body_radius)
+    if (table.age(k) == 0 &&
+        distance_to_segment(center, Vec2{}, table.position(k)) < well_inside * robot.params.body_radius)
       return true;
   return false;
 }
@@ -223,8 +223,7 @@ void note_body(const TreeRobot& robot, Corners& corners, int k) noexcept {
   constexpr float clear = 0.08F;  // of other robots, which may have moved since it was heard
   const TreeTable& table = robot.table();
   KnownBodies& bodies = corners.bodies;
-  if (table.range(k) > longest_link || !sees_clearly(robot, corners, k, clear))
-    return;
+  if (table.range(k) > longest_link || !sees_clearly(robot, corners, k, clear)) return;
   const auto begin = bodies.ids.begin();
   if (banyan::any_of(begin, begin + bodies.size, [&](RobotId id) { return id == table.id(k); })) return;
   if (bodies.size == body_capacity) {  // the oldest makes room

@@ -38,8 +38,8 @@ void measure_charge(PowerRobot& me, const std::optional<Charge>& charge, const O
   }
   // A successor is not told that its target is a charging place: it notices.
   const HealingState& self = me.robot.self;
-  power.keeps_place = self.is_worker &&
-                      (power.keeps_place || power.charging || (orders.charging_place && self.serves == self.id));
+  power.keeps_place =
+      self.is_worker && (power.keeps_place || power.charging || (orders.charging_place && self.serves == self.id));
 }
 
 // Hops from robot to robot, as for calls (protocol 7): the keeper of a place counts 0.

@@ -120,8 +120,7 @@ void choose_relieved(PowerRobot& me) noexcept {
 void settle_in(PowerRobot& me) noexcept {
   PowerStanding& said = me.power.said;
   Vec2 spot;
-  const bool there = said.relieves != nobody && find_relief_spot(me, spot) &&
-                     norm(spot) <= in_place &&
+  const bool there = said.relieves != nobody && find_relief_spot(me, spot) && norm(spot) <= in_place &&
                      !hides_child(me, me.robot.table().find(said.relieves));
   said.in_place = said.relieves != nobody && (said.in_place || there);
   if (said.relieves != nobody || is_parent_relieved(me)) me.robot.add_elapsed(me.power.stuck_ticks);

@@ -17,7 +17,7 @@
 namespace banyan {
 namespace {
 
-constexpr float short_for_drives = 1.0F; // an edge in need has called for so long: its tree comes before companions
+constexpr float short_for_drives = 1.0F;  // an edge in need has called for so long: its tree comes before companions
 constexpr int call_reach_hops_each = 40;  // of calls by edges, and of those for companions
 constexpr int lacks_after_ticks = 3;      // it may just not have heard its companion
 constexpr int stand_in = 3;    // times the silence after which a robot counts as dead: so long its companion stays
@@ -33,16 +33,14 @@ constexpr float hides = 0.6F;           // of `clearance`: a robot so near to a 
 constexpr float near_place = 0.05F;     // of C: within it the companion slows down
 constexpr float keeps_off = 0.8F;       // of companion_distance: nearer it is driven away from the robot of the tree
 constexpr float from_afar = 2.0F;       // times companion_distance: farther it is still on its way
-constexpr float least_range = 0.025F;  // no robots are nearer to each other
+constexpr float least_range = 0.025F;   // no robots are nearer to each other
 constexpr float even = 0.5F;            // of companion_distance: of two companions none is the nearer by less
 // Of a length by which a place is better: the way there, so that it does not change its mind.
 constexpr float costs_way = 0.15F;
 constexpr float costs_hidden = 0.5F;  // of C: what a hidden neighbour weighs against the distance of others
 constexpr float costs_crowd = 0.25F;  // of C: likewise a robot at that place, or an edge through it
 
-float bridged_reach(const ConvoyRobot& robot) noexcept {
-  return may_fold(robot) ? folded_reach(robot.params) : bridged;
-}
+float bridged_reach(const ConvoyRobot& robot) noexcept { return may_fold(robot) ? folded_reach : bridged; }
 
 // Two robots at a and b hear each other without the one at `middle`, whose body stays where it is, even if it dies.
 bool hear_each_other(const ConvoyRobot& robot, Vec2 middle, Vec2 a, Vec2 b, bool travels) noexcept {
@@ -291,8 +289,7 @@ float obstruction_of(const ConvoyRobot& robot, const EdgeEnds& ends, int of, Vec
 float cost_of(const ConvoyRobot& robot, const EdgeEnds& ends, int of, Vec2 place) noexcept {
   float longest = 0.0F;
   for (const Vec2 end : ends.all()) longest = std::max(longest, distance(place, end));
-  return longest + (longest > reach ? 1.0F : 0.0F) + costs_way * norm(place) +
-         obstruction_of(robot, ends, of, place);
+  return longest + (longest > reach ? 1.0F : 0.0F) + costs_way * norm(place) + obstruction_of(robot, ends, of, place);
 }
 
 }  // namespace
@@ -349,7 +346,7 @@ bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept {
   const Vec2 from = table.position(*child);
   const Vec2 to = table.position(robot.parent);
   const Vec2 near = nearest_on_segment(from, to);
-  const float reach = saves ? thrifty(p, p.merge_distance) : folded_reach(p);
+  const float reach = saves ? thrifty(p, p.merge_distance) : folded_reach;
   if (distance(from, to) > reach || norm(near) > aside * p.clearance) return false;
   const Vec2 left = left_of(unit(to - from));
   constexpr float pace = 0.7F;

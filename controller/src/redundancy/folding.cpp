@@ -10,7 +10,6 @@
 namespace banyan {
 namespace {
 
-constexpr float relied_on = 0.96F;    // of C: no longer link counts as a path
 constexpr float taut_below = 0.04F;   // of C: so much shorter than the longest folded edge one begins to draw a parent
 constexpr float taut_width = 0.08F;   // of C: and so much longer it does with all its strength
 constexpr float gives_below = 0.02F;  // of C: the same for the edge to one's own parent,
@@ -49,14 +48,12 @@ bool may_fold(const ConvoyRobot& robot) noexcept {
 }
 
 bool folds(const ConvoyRobot& robot) noexcept {
-  return may_fold(robot) && prunes(robot.params) && robot.self.subtree_workers > 0 &&
-         robot.self.want < folds_from && robot.self.call_hops >= companion_call;
+  return may_fold(robot) && prunes(robot.params) && robot.self.subtree_workers > 0 && robot.self.want < folds_from &&
+         robot.self.call_hops >= companion_call;
 }
 
-float folded_reach(const ConvoyParams&) noexcept { return relied_on; }
-
 float folded_edge(const ConvoyParams& params) noexcept {
-  return folded_reach(params) / static_cast<float>(params.link_redundancy);
+  return folded_reach / static_cast<float>(params.link_redundancy);
 }
 
 bool wants_fold(const ConvoyRobot& robot) noexcept {
@@ -69,9 +66,8 @@ bool is_off_middle(const ConvoyRobot& robot, int owner, int parent) noexcept {
   const TreeTable& table = robot.table();
   const ConvoyParams& p = robot.params;
   const float edge = distance(table.position(owner), table.position(parent));
-  if (!may_fold(robot) || is_under_way(table.message(owner)) || edge > folded_reach(p)) return false;
-  return std::max(table.range(owner), table.range(parent)) >
-         std::max(0.5F * edge, folded_edge(p)) + off_middle;
+  if (!may_fold(robot) || is_under_way(table.message(owner)) || edge > folded_reach) return false;
+  return std::max(table.range(owner), table.range(parent)) > std::max(0.5F * edge, folded_edge(p)) + off_middle;
 }
 
 bool leads_travelling(const ConvoyRobot& robot, int k) noexcept {
@@ -89,8 +85,7 @@ Vec2 folding_motion(const ConvoyRobot& robot) noexcept {
       u += unit(table.position(k)) * ramp(table.range(k), edge - taut_below, taut_width);
   if (robot.parent < 0 || robot.self.want > 0.0F) return u;  // the last bit of the way it is towed
   const Vec2 up = unit(table.position(robot.parent));
-  return u + up * ramp(table.range(robot.parent), edge - gives_below, gives_width * edge) +
-         look_past(robot, up);
+  return u + up * ramp(table.range(robot.parent), edge - gives_below, gives_width * edge) + look_past(robot, up);
 }
 
 Vec2 clear_folds(const ConvoyRobot& robot, float width) noexcept {

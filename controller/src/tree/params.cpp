@@ -71,10 +71,8 @@ std::string_view tree_fault(const TreeParams& params) noexcept {
     return "avoidance_range (A) must be below recruitment_distance (E)";
   if (!(params.recruitment_distance < params.safe_range))
     return "recruitment_distance (E) must be below safe_range (S)";
-  if (!(params.safe_range < params.ideal_distance))
-    return "safe_range (S) must be below ideal_distance (delta)";
-  if (!(params.ideal_distance <= 1.0F))
-    return "ideal_distance (delta) must not exceed the radio range, 1 C";
+  if (!(params.safe_range < params.ideal_distance)) return "safe_range (S) must be below ideal_distance (delta)";
+  if (!(params.ideal_distance <= 1.0F)) return "ideal_distance (delta) must not exceed the radio range, 1 C";
   return {};
 }
 

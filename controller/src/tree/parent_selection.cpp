@@ -40,8 +40,7 @@ int flood_parent(const TreeRobot& robot, const ParentRule& rule) noexcept {
   if (k < 0 || !robot.is_sure(k)) return -1;
   const TreeStanding& m = robot.table().message(k);
   const bool near = robot.table().range(k) <= longest_link;
-  return near && may_relay(rule, m) && m.epoch == self.epoch && m.label < self.label && is_ahead(robot, k) ? k
-                                                                                                                 : -1;
+  return near && may_relay(rule, m) && m.epoch == self.epoch && m.label < self.label && is_ahead(robot, k) ? k : -1;
 }
 
 // Still none: a childless robot has no robot below it, so it may move behind any committed neighbour.
@@ -213,8 +212,7 @@ void keep_up(TreeRobot& robot, int k) noexcept {
   // which there is no place.
   const std::uint16_t below = label_below(m.label, robot.table().range(k));
   const bool renews = robot.reading.renews_labels && self.phase >= Phase::grow_tree;
-  if (self.label == unknown_label || self.label <= m.label || (renews && self.label > below))
-    self.label = below;
+  if (self.label == unknown_label || self.label <= m.label || (renews && self.label > below)) self.label = below;
 }
 
 void take_parent(TreeRobot& robot, int k) noexcept {

@@ -20,8 +20,8 @@ int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit, bool
   const float limit = leaves ? reach : norm(place) - robot.params.centroid_margin;
   return least_of(table.size(), limit, [&](int k) {
     const TreeStanding& m = table.message(k);
-    const bool may = table.age(k) == 0 && m.role != Role::worker && m.epoch == self.epoch &&
-                     table.range(k) <= reach && may_inherit(k);
+    const bool may = table.age(k) == 0 && m.role != Role::worker && m.epoch == self.epoch && table.range(k) <= reach &&
+                     may_inherit(k);
     return may ? distance(table.position(k), place) : limit;
   });
 }
@@ -72,8 +72,7 @@ void select_root(TreeRobot& robot, FunctionRef<bool(int)> may_inherit, bool leav
   }
   if (self.new_root != nobody) {
     robot.add_elapsed(self.offer_ticks);
-    if (self.offer_ticks <= std::max(whole(robot.params.handover_rounds), robot.liveness_ticks()))
-      return;
+    if (self.offer_ticks <= std::max(whole(robot.params.handover_rounds), robot.liveness_ticks())) return;
     self.root.sequence = advanced(self.root.sequence, 2);  // beats an acceptance not heard
     self.new_root = nobody;
     return enter(robot, advanced(self.epoch), Phase::start_tree);

@@ -147,8 +147,7 @@ void join_edge(TreeRobot& robot, int owner) noexcept {
   const TreeStanding& above = table.message(parent);
   auto label = static_cast<std::uint16_t>((std::uint32_t{table.message(owner).label} + above.label) / 2);
   if (label <= above.label) label = label_below(above.label, 0.0F);
-  self.label =
-      is_newer(above.seqno, self.seqno) ? label : std::min(label, self.label);  // never fall back (is_ahead)
+  self.label = is_newer(above.seqno, self.seqno) ? label : std::min(label, self.label);  // never fall back (is_ahead)
   self.seqno = above.seqno;
   self.seqno_ticks = 0;
   take_parent(robot, parent);

@@ -10,7 +10,7 @@ const Algorithm& algorithm() noexcept {
       .summary = "teams leave connectors behind them, and branches move to nearer connectors to shorten the network",
       .bind = bind<Params, parameters>,
       .fault = fault,
-        });
+  });
   return described;
 }
 

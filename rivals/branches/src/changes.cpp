@@ -88,8 +88,7 @@ Choice shorten(const Robot& robot, const View& view) noexcept {
 Choice withdraw(const Robot& robot, const View& view) noexcept {
   const bool is_tail = view.leaders == 1 && view.connectors == 1 && !robot.self.is_root();
   if (!is_tail || !has_room(robot.table().message(view.at[1]))) return {};
-  return robot.between(view.at[0], view.at[1]) < robot.params.joining ? Choice{view.at[0], view.at[1], 1.0F}
-                                                                        : Choice{};
+  return robot.between(view.at[0], view.at[1]) < robot.params.joining ? Choice{view.at[0], view.at[1], 1.0F} : Choice{};
 }
 
 // A leader is at the end of a branch: if it had links when it was sent, they go over to one of its neighbours.

@@ -132,7 +132,8 @@ void leave(Robot& robot) noexcept {
   const bool is_leaf = self.links.size() <= 1 && !self.is_busy() && !self.is_root() && !self.has_lost_child();
   self.leaf_ticks = is_leaf ? robot.counted(self.leaf_ticks) : std::uint16_t{0};
   const bool is_idle = self.is_joined() || self.links.size() == 0;
-  const int patience_ticks = is_idle ? whole(robot.params.change_rounds) : robot.params.rounds(robot.params.join_patience_drives);
+  const int patience_ticks =
+      is_idle ? whole(robot.params.change_rounds) : robot.params.rounds(robot.params.join_patience_drives);
   if (self.leaf_ticks > patience_ticks) become_follower(self);
 }
 

@@ -48,7 +48,8 @@ void forget_lost(Robot& robot) noexcept {
   const bool gone = self.lost_ticks > whole(robot.params.liveness_rounds);
   const bool lives = robot.said_by(self.lost) != nullptr || (gone && is_named(robot, self.lost));
   const bool there = norm(self.lost_at) < robot.params.arrival_distance;
-  const bool waited = !self.has_lost_parent() && self.lost_ticks > robot.params.rounds(robot.params.join_patience_drives);
+  const bool waited =
+      !self.has_lost_parent() && self.lost_ticks > robot.params.rounds(robot.params.join_patience_drives);
   if (rejoined || lives || there || waited) self.forget();
 }
 

@@ -17,10 +17,7 @@ constexpr float connectors_rest = 0.1875F;
 
 class Spacing {
  public:
-  explicit Spacing(const Robot& robot)
-      : robot_(robot),
-        self_(robot.self),
-        table_(robot.table()) {}
+  explicit Spacing(const Robot& robot) : robot_(robot), self_(robot.self), table_(robot.table()) {}
 
   [[nodiscard]] Vec2 follower() const noexcept {
     const Vec2 u = clamped(attraction(), 1.0F) * followers_attraction +

@@ -10,7 +10,7 @@ const Algorithm& algorithm() noexcept {
       .summary = "joins each worker to a base by chains of relays, which free robots enter at the base",
       .bind = bind<Params, parameters>,
       .fault = fault,
-        });
+  });
   return described;
 }
 

@@ -8,7 +8,7 @@
 
 namespace banyan::rivals::chains {
 
-inline constexpr int fresh_ticks = 5;    // who was heard within these is where it is said to be
+inline constexpr int fresh_ticks = 5;   // who was heard within these is where it is said to be
 inline constexpr float slack = 0.005F;  // a robot so near its place is there
 
 // A robot within its step.

@@ -107,8 +107,7 @@ Vec2 spacing_motion(const Robot& robot) noexcept {
 void guard_chain(const Robot& robot, Guard& guard) noexcept {
   const auto add = [&](RobotId end) {
     if (const int k = robot.table().find(end); k >= 0)
-      guard.add(robot.table().position(k), robot.params.longest_link - robot.table().spread(),
-                robot.params.guard_rate);
+      guard.add(robot.table().position(k), robot.params.longest_link - robot.table().spread(), robot.params.guard_rate);
   };
   if (robot.self.is_free()) return;
   for (const Chain& chain : robot.chains()) add(chain.parent);

@@ -10,7 +10,7 @@ const Algorithm& algorithm() noexcept {
       .summary = "holds together like a liquid with a tense boundary, which leaders drag into a Steiner tree",
       .bind = bind<Params, parameters>,
       .fault = fault,
-        });
+  });
   return described;
 }
 

@@ -7,7 +7,7 @@ namespace banyan::rivals {
 namespace {
 
 constexpr float same_spot = 1e-6F;  // nearer than this there is no direction
-constexpr float least_u = 0.02F;      // below it a robot rests
+constexpr float least_u = 0.02F;    // below it a robot rests
 
 Vec2 push_from(Vec2 there, float d, const RivalParams& params) noexcept {
   const float a = params.avoidance_range;

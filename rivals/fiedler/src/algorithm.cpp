@@ -10,7 +10,7 @@ const Algorithm& algorithm() noexcept {
       .summary = "estimates the algebraic connectivity of the network, and moves up its gradient",
       .bind = bind<Params, parameters>,
       .fault = fault,
-        });
+  });
   return described;
 }
 

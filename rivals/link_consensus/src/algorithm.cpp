@@ -10,7 +10,7 @@ const Algorithm& algorithm() noexcept {
       .summary = "keeps radio links, and gives one up when its ends agree that a detour remains",
       .bind = bind<Params, parameters>,
       .fault = fault,
-        });
+  });
   return described;
 }
 

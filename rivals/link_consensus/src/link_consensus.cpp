@@ -33,8 +33,7 @@ Vec2 desired_motion(const Robot& robot, std::span<const Vec2> obstacles) noexcep
 void guard_links(const Robot& robot, Guard& guard) noexcept {
   for (int l = 0; l < robot.self.links.size(); ++l)
     if (const int k = robot.table().find(robot.self.links[l].to); k >= 0)
-      guard.add(robot.table().position(k), robot.params.longest_link - robot.table().spread(),
-                robot.params.guard_rate);
+      guard.add(robot.table().position(k), robot.params.longest_link - robot.table().spread(), robot.params.guard_rate);
 }
 
 Message composed(const State& self) noexcept {

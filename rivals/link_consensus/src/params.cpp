@@ -15,7 +15,8 @@ constexpr Parameter<Params> of_link_consensus[] = {
     {{"link_gain", "", "", "link consensus: gain of the potential along a kept link",
       "Smaller lets a target's pull stretch links nearer to their limit.", "link consensus", 0.0F, 10.0F},
      &Params::link_gain},
-    {{"root_silence_rounds", "", "rounds", "link consensus: silence of the root after which another robot takes its place",
+    {{"root_silence_rounds", "", "rounds",
+      "link consensus: silence of the root after which another robot takes its place",
       "More than news takes to come through the longest chain.", "link consensus", 5.0F, 6000.0F},
      &Params::root_silence_rounds},
 };

@@ -10,7 +10,7 @@ const Algorithm& algorithm() noexcept {
       .summary = "keeps a minimum spanning tree of all robots, and builds a new one when an edge gets long",
       .bind = bind<Params, parameters>,
       .fault = fault,
-        });
+  });
   return described;
 }
 

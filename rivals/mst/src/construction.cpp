@@ -13,7 +13,7 @@ namespace banyan::rivals::mst {
 namespace {
 
 constexpr float units_per_range = 2000.0F;
-constexpr float room_to_move = 0.97F;   // of the longest link: a new edge must not be too long at once
+constexpr float room_to_move = 0.97F;  // of the longest link: a new edge must not be too long at once
 
 bool comes_first(const Edge& a, const Edge& b) noexcept {
   if (a.from == nobody || b.from == nobody) return b.from == nobody && a.from != nobody;
@@ -153,8 +153,7 @@ std::uint16_t grown(std::uint16_t ticks, const Robot& robot) noexcept {
 // Leaders wait for different times, so that one of them is first.
 bool is_stuck(const Robot& robot) noexcept {
   const State& self = robot.self;
-  const int patience =
-      whole(robot.params.liveness_rounds) + whole(robot.params.countdown_rounds);
+  const int patience = whole(robot.params.liveness_rounds) + whole(robot.params.countdown_rounds);
   const auto more = static_cast<int>((self.id * 7919U + self.level * 104729U) % static_cast<unsigned>(patience + 1));
   return self.decided_ticks > patience + more && self.level < 255;
 }

@@ -33,8 +33,7 @@ void guard_tree(const Robot& robot, Guard& guard) noexcept {
   const State& self = robot.self;
   const auto add = [&](RobotId end) {
     if (const int k = robot.table().find(end); k >= 0)
-      guard.add(robot.table().position(k), robot.params.longest_link - robot.table().spread(),
-                robot.params.guard_rate);
+      guard.add(robot.table().position(k), robot.params.longest_link - robot.table().spread(), robot.params.guard_rate);
   };
   for (const RobotId end : self.tree) add(end);
   for (const RobotId end : self.old) add(end);

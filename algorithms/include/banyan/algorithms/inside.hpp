@@ -17,9 +17,12 @@ template <class Algorithm> [[nodiscard]] const SwarmOf<Algorithm>& swarm_as(cons
 // Calls look(swarm) with a swarm of convoy or of the paper's as its own type; throws std::bad_cast if it is none.
 template <class Look> decltype(auto) inside(const Swarm& swarm, Look look) {
   if (const auto* s = dynamic_cast<const SwarmOf<ConvoySwarm>*>(&swarm)) return look(*s);
-  if (const auto* s = dynamic_cast<const SwarmOf<PaperSwarm<paper::outwards, paper::corrected>>*>(&swarm)) return look(*s);
-  if (const auto* s = dynamic_cast<const SwarmOf<PaperSwarm<paper::inwards, paper::corrected>>*>(&swarm)) return look(*s);
-  if (const auto* s = dynamic_cast<const SwarmOf<PaperSwarm<paper::outwards, paper::literal>>*>(&swarm)) return look(*s);
+  if (const auto* s = dynamic_cast<const SwarmOf<PaperSwarm<paper::outwards, paper::corrected>>*>(&swarm))
+    return look(*s);
+  if (const auto* s = dynamic_cast<const SwarmOf<PaperSwarm<paper::inwards, paper::corrected>>*>(&swarm))
+    return look(*s);
+  if (const auto* s = dynamic_cast<const SwarmOf<PaperSwarm<paper::outwards, paper::literal>>*>(&swarm))
+    return look(*s);
   if (const auto* s = dynamic_cast<const SwarmOf<PaperSwarm<paper::inwards, paper::literal>>*>(&swarm)) return look(*s);
   throw std::bad_cast();
 }

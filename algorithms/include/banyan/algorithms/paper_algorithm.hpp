@@ -23,8 +23,7 @@ class PaperAlgorithmOf : public AlgorithmOf<PaperSwarm<growth, paper::corrected>
 
  public:
   constexpr PaperAlgorithmOf(std::string_view name, std::string_view summary, paper::Params (*defaults)() noexcept)
-      : Corrected(
-            {.name = name, .summary = summary, .defaults = defaults, .bind = bind, .fault = paper::fault}) {}
+      : Corrected({.name = name, .summary = summary, .defaults = defaults, .bind = bind, .fault = paper::fault}) {}
   [[nodiscard]] bool knows_readings() const noexcept override { return true; }
   [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
     if (setup.reading != "literal") return Corrected::make(setup, members);

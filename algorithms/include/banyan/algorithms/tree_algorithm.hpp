@@ -24,11 +24,7 @@ template <class A> class TreeAlgorithmOf : public AlgorithmOf<A> {
  public:
   using typename AlgorithmOf<A>::Params;
   constexpr TreeAlgorithmOf(std::string_view name, std::string_view summary, Params (*defaults)() noexcept)
-      : AlgorithmOf<A>({.name = name,
-                        .summary = summary,
-                        .defaults = defaults,
-                        .bind = bind,
-                        .fault = cross_fault}) {}
+      : AlgorithmOf<A>({.name = name, .summary = summary, .defaults = defaults, .bind = bind, .fault = cross_fault}) {}
 };
 
 }  // namespace banyan

@@ -24,7 +24,7 @@ namespace banyan {
 
 // An edge above child k calls in vain, and k cannot follow it: it is a junction, or a worker with a branch of its own.
 [[nodiscard]] bool is_held_by_branches(const ConvoyRobot& robot, int k) noexcept;
-// Where I come up beside it: towards the branch that I am to take over, own frame, m.
+// Where I come up beside it: towards the branch that I am to take over, own frame, C.
 [[nodiscard]] Vec2 place_beside(const ConvoyRobot& robot, int k) noexcept;
 
 // My parent is such a junction: its own parent, which has come up, becomes mine, unless an edge of mine calls and goes

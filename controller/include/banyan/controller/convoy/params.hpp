@@ -9,26 +9,26 @@ namespace banyan {
 struct ConvoyParams : PowerParams {
   float pull_start = 0.675F;  // a child farther than this pulls its parent along
   float pull_width = 0.15F;   // and with full strength this much farther away
-  float tension_gain = 0.4F;   // edges are taut strings: straight chains, junctions of 120 degrees
+  float tension_gain = 0.4F;  // edges are taut strings: straight chains, junctions of 120 degrees
   float tension_start = 0.15F;
   float tension_width = 0.15F;
-  float slack_gain = 2.0F;        // edges of a chain share their slack
+  float slack_gain = 2.0F;       // edges of a chain share their slack
   float first_edge = 0.35F;      // the longest edge that is chosen while there is a choice
-  float clearance = 0.08F;      // a robot nearer than this to a segment blocks it, or soon may
+  float clearance = 0.08F;       // a robot nearer than this to a segment blocks it, or soon may
   float corridor_width = 0.35F;  // robots within it move out of a tree edge's line of sight
   float corridor_gain = 0.5F;
-  float join_margin = 0.05F;        // a spare joins an edge whose ends are nearer than delta minus this
-  float shortest_split = 0.4F;     // shorter edges get no spare
-  float call_distance = 0.9F;      // a longer edge in need calls spares from afar
-  float release_distance = 0.75F;   // a grandparent nearer than this becomes the parent
-  float spare_avoidance = 0.14F;   // repulsion from spares begins here
-  float merge_distance = 0.93F;    // longest edge made to save a robot, once all below have arrived
-  float compact_distance = 0.91F;  // a chain that has arrived stretches its edges to this
-  float plan_after_drives = 1.5F;        // all have arrived: the root plans chains from target to target; 0: never
-  float shed_after_drives = 9.0F;        // spares missed for so long without progress: the root gives a target up; 0: never
+  float join_margin = 0.05F;         // a spare joins an edge whose ends are nearer than delta minus this
+  float shortest_split = 0.4F;       // shorter edges get no spare
+  float call_distance = 0.9F;        // a longer edge in need calls spares from afar
+  float release_distance = 0.75F;    // a grandparent nearer than this becomes the parent
+  float spare_avoidance = 0.14F;     // repulsion from spares begins here
+  float merge_distance = 0.93F;      // longest edge made to save a robot, once all below have arrived
+  float compact_distance = 0.91F;    // a chain that has arrived stretches its edges to this
+  float plan_after_drives = 1.5F;    // all have arrived: the root plans chains from target to target; 0: never
+  float shed_after_drives = 9.0F;    // spares missed for so long without progress: the root gives a target up; 0: never
   float thrift = 0.0F;               // 0 to 1: how much robots count against time, once workers have arrived
   float companion_distance = 0.15F;  // how far beside its robot a companion stands
-  int link_redundancy = 1;            // the mission's k: each robot that the tree depends on has k - 1 companions
+  int link_redundancy = 1;           // the mission's k: each robot that the tree depends on has k - 1 companions
 };
 
 // A length between robots that have arrived: with thrift nearer to G, which no edge outgrows.

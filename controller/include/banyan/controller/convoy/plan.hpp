@@ -20,7 +20,7 @@ namespace banyan {
 // moment.
 [[nodiscard]] bool has_settled(const ConvoyRobot& robot) noexcept;
 
-// I lead my branch: where to, own frame, m.
+// I lead my branch: where to, own frame, C.
 [[nodiscard]] bool find_goal(const ConvoyRobot& robot, Vec2& goal) noexcept;
 
 // I lead, and my branch is too short to go on: a spare between my parent and me would lead it farther.

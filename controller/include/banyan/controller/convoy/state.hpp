@@ -30,11 +30,11 @@ struct ConvoyMemory {
   std::uint8_t plan_steps = 0;        // begun so far
   std::array<std::uint8_t, task_capacity> plan_level{};
   std::array<RobotId, task_capacity> planned = none();  // hosts of all levels
-  RobotId shed = nobody;            // the root: the target that it is giving up, since robots are too few
-  std::uint16_t short_ticks = 0;    // spares have been missed for so long without progress:
-  std::uint16_t short_want = 0;  // the least distance that was left since
-  std::uint8_t short_reached = 0;   // so many targets were reached
-  RobotCount tried_with = 0;        // the most spares with which a target was tried again
+  RobotId shed = nobody;           // the root: the target that it is giving up, since robots are too few
+  std::uint16_t short_ticks = 0;   // spares have been missed for so long without progress:
+  std::uint16_t short_want = 0;    // the least distance that was left since
+  std::uint8_t short_reached = 0;  // so many targets were reached
+  RobotCount tried_with = 0;       // the most spares with which a target was tried again
   std::array<RobotId, task_capacity> hosts = none();  // the plan: at which target the branch of tasks[k] is to begin
 
   // A second path (redundancy/companions.hpp)

@@ -33,7 +33,7 @@ namespace banyan {
 
 // How hard a robot at distance d from a line of sight is pushed off it, in units of corridor_gain; 0 at `width`.
 [[nodiscard]] inline float push_off_line(float d, float width) noexcept {
-  constexpr float on_line = 5e-4F;  // nearer it is no harder
+  constexpr float on_line = 5e-4F;    // nearer it is no harder
   constexpr float most_push = 20.0F;  // a line across the robot outweighs all others, but not without limit
   return std::min(width / std::max(d, on_line) - 1.0F, most_push);
 }

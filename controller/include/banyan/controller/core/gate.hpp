@@ -17,9 +17,9 @@
 
 namespace banyan {
 
-inline constexpr float farthest_ranges = 10.0F;     // C: a neighbour, an obstacle, a way driven in one step
-inline constexpr float farthest_place = 1000.0F;    // C: a target; wire.hpp writes places a little farther away
-inline constexpr float largest_turn_rad = 1.0e3F;   // in one step; trig.hpp is exact up to 1e4
+inline constexpr float farthest_ranges = 10.0F;    // C: a neighbour, an obstacle, a way driven in one step
+inline constexpr float farthest_place = 1000.0F;   // C: a target; wire.hpp writes places a little farther away
+inline constexpr float largest_turn_rad = 1.0e3F;  // in one step; trig.hpp is exact up to 1e4
 inline constexpr int longest_step_ticks = 36'000;
 inline constexpr std::size_t most_obstacles = 64;  // that are looked at in one step: the first
 
@@ -30,8 +30,8 @@ class Gate {
   Gate(const Gate&) = delete;
   Gate& operator=(const Gate&) = delete;
 
-  // Drops packets whose sender cannot be where, or when, it was measured to be; the others are as of now, in the present
-  // frame and in C. In place; the order stays.
+  // Drops packets whose sender cannot be where, or when, it was measured to be; the others are as of now, in the
+  // present frame and in C. In place; the order stays.
   template <class Heard> std::span<Heard> packets(std::span<Heard> heard, const Platform& platform) noexcept {
     const float longest_age_s = platform.tick_s * longest_step_ticks;
     const float per_second = 1.0F / platform.tick_s;

@@ -16,7 +16,7 @@ namespace banyan {
 struct Guard {
   static constexpr int capacity = neighbor_capacity + 64;  // tree neighbours, then obstacles
   struct HalfPlane {
-    float x, y;       // unit vector, from the neighbour to me
+    float x, y;   // unit vector, from the neighbour to me
     float limit;  // v_max, along it
     [[nodiscard]] Vec2 away() const noexcept { return {x, y}; }
   };

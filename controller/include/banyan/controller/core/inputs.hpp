@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a robot senses between two steps, as its host hands it in, and what its step answers. Hosts measure in metres and
-// seconds; behind the gate (gate.hpp) and in Motion lengths are in C and speeds in v_max (platform.hpp). Everything is in
-// the robot's own body frame: x forward, y to the left.
+// What a robot senses between two steps, as its host hands it in, and what its step answers. Hosts measure in metres
+// and seconds; behind the gate (gate.hpp) and in Motion lengths are in C and speeds in v_max (platform.hpp). Everything
+// is in the robot's own body frame: x forward, y to the left.
 #pragma once
 
 #include <optional>

@@ -17,7 +17,8 @@ struct ParameterInfo {
   std::string_view source;   // "Table I", "protocol 9" ...
   float minimum;
   float maximum;
-  // A length that bodies must fit into: for robots larger than a Khepera IV at 2 m, compared with C, it grows with them.
+  // A length that bodies must fit into: for robots larger than a Khepera IV at 2 m, compared with C, it grows with
+  // them.
   bool grows_with_body = false;
 };
 

@@ -58,12 +58,12 @@ struct Report {
   Phase phase = Phase::init;
   Need need = Need::no_need;
   SpareState spare_state = SpareState::wait;
-  float label = -1.0F;         // distance to the root along hops, C; -1: unknown
-  std::uint16_t depth = 0;     // in the tree, root 1; 0: no path of tree edges to the root
-  RobotId grant = nobody;      // the spare that it lets into the edge to its parent
-  RobotId request = nobody;    // the owner of the edge that it wants to join
-  float want = 0.0F;           // largest remaining way of a worker below, C
-  bool out_of_scale = false;   // so far from the root that its label cannot grow: it has no place for a child
+  float label = -1.0F;        // distance to the root along hops, C; -1: unknown
+  std::uint16_t depth = 0;    // in the tree, root 1; 0: no path of tree edges to the root
+  RobotId grant = nobody;     // the spare that it lets into the edge to its parent
+  RobotId request = nobody;   // the owner of the edge that it wants to join
+  float want = 0.0F;          // largest remaining way of a worker below, C
+  bool out_of_scale = false;  // so far from the root that its label cannot grow: it has no place for a child
 
   // Algorithms for robots with batteries
   bool leaves = false;        // it has to be relieved

@@ -15,11 +15,11 @@ struct HealingStanding {
 };
 
 struct HealingNews {
-  bool root_told = false;      // I know where the root is
-  RobotCount root_size = 0;    // robots that this root counted last; 0: none yet
-  Serial heartbeat = 0;        // gossip: the root's count of ticks
-  RobotId told = nobody;       // addressee of the vectors that follow
-  Coordinate root_x;          // root - addressee, edge frame to `told`
+  bool root_told = false;    // I know where the root is
+  RobotCount root_size = 0;  // robots that this root counted last; 0: none yet
+  Serial heartbeat = 0;      // gossip: the root's count of ticks
+  RobotId told = nobody;     // addressee of the vectors that follow
+  Coordinate root_x;         // root - addressee, edge frame to `told`
   Coordinate root_y;
   RobotId task_serves = nobody;  // a target, by its first worker; nobody: I know none
   RobotId task_holder = nobody;  // gossip: the robot that serves it; nobody: it has been given up
@@ -28,7 +28,7 @@ struct HealingNews {
   bool task_silent = false;  // gossip: the robots that heard the holder last no longer hear it; without holder: put off
   bool task_below = false;   // the holder is below me in the tree, or I am the holder
   bool forgets = false;      // gossip: some robot has had no room for a target
-  Coordinate task_x;          // target - addressee, edge frame to `told`
+  Coordinate task_x;         // target - addressee, edge frame to `told`
   Coordinate task_y;
 
   friend bool operator==(const HealingNews&, const HealingNews&) = default;

@@ -9,7 +9,7 @@ namespace banyan {
 
 struct Guard;  // motion.hpp
 
-// A way round an obstacle that a robot is driving; vectors in its own frame, m.
+// A way round an obstacle that a robot is driving; vectors in its own frame, C.
 struct Detour {
   std::int8_t side = 0;       // +1: the obstacle is to the right, -1: to the left, 0: no detour
   std::int8_t last_side = 0;  // of the one that ended near here; 0: none did
@@ -17,15 +17,15 @@ struct Detour {
   Vec2 contact;               // where the obstacle was touched last
   Vec2 origin;                // where the detour began
   Vec2 goal;                  // as it was then
-  float leave = 0.0F;       // the detour is over when the goal is nearer than this
-  float span = 0.0F;        // this far from the origin the other side is tried
+  float leave = 0.0F;         // the detour is over when the goal is nearer than this
+  float span = 0.0F;          // this far from the origin the other side is tried
 };
 
 inline constexpr float obstacle_near = 0.095F;  // C: between body and obstacle, when it begins to matter
 
 void carry_detour(Detour& detour, const Carry& carry) noexcept;
 
-// The unit vector in which to drive in order to get to `goal` (own frame, m): straight, or along the
+// The unit vector in which to drive in order to get to `goal` (own frame, C): straight, or along the
 // obstacle in between. The side is chosen once, nearer to the goal, and kept until the way is free and
 // the goal nearer than where the detour began; a side that leads too far is given up for the other,
 // each time twice as far. Remembers it in `detour`. Zero for a zero goal.

@@ -22,12 +22,12 @@ struct CornerStanding {
 template <class Visitor, class M> constexpr void visit_corner_block(Visitor& visit, M& m) noexcept {
   visit.flag("pinned", "1: a corner is about to cut the edge to the parent", m.pinned);
   visit.coordinate("hinge_x",
-               "known obstacle point nearest to the edge to the parent, relative to the parent, along that edge",
-               m.hinge_x);
+                   "known obstacle point nearest to the edge to the parent, relative to the parent, along that edge",
+                   m.hinge_x);
   visit.coordinate("hinge_y", "the same, to the left of that edge; 0, 0: none", m.hinge_y);
 }
 
-// Points of obstacles that were sensed a while ago, in the own frame, m.
+// Points of obstacles that were sensed a while ago, in the own frame, C.
 inline constexpr int landmark_capacity = 8;
 struct Landmarks {
   std::array<Vec2, landmark_capacity> points{};  // the first `size` are valid
@@ -35,7 +35,7 @@ struct Landmarks {
 };
 
 // Where tree neighbours fell silent in plain sight: their bodies have stayed there, between the robots that they
-// joined. Centres, own frame, m.
+// joined. Centres, own frame, C.
 inline constexpr int body_capacity = 4;
 struct KnownBodies {
   std::array<Vec2, body_capacity> centers{};  // the first `size` are valid
@@ -46,7 +46,7 @@ struct KnownBodies {
 struct Corners {
   Landmarks landmarks;
   KnownBodies bodies;
-  Vec2 seen_from;       // m, own frame: where I was when I last heard my parent; a spare: where the tree was
+  Vec2 seen_from;       // C, own frame: where I was when I last heard my parent; a spare: where the tree was
   bool pinned = false;  // a corner is about to cut the edge to my parent
   std::array<CornerStanding, neighbor_capacity> standings{};  // beside the neighbour table
 
@@ -59,7 +59,7 @@ void carry_corners(Corners& corners, const Carry& carry) noexcept;
 // Once a tick, after the memory has been carried along.
 void remember_corners(const TreeRobot& robot, Corners& corners) noexcept;
 
-// The obstacle point nearest to the inside of the edge to my parent, own frame, m; false if none is near.
+// The obstacle point nearest to the inside of the edge to my parent, own frame, C; false if none is near.
 [[nodiscard]] bool find_hinge(const TreeRobot& robot, const Corners& corners, Vec2& hinge) noexcept;
 
 // Half-planes that keep obstacles out of the lines of sight along the robot's tree edges.
@@ -72,7 +72,7 @@ void keep_sight(const TreeRobot& robot, const Corners& corners, Guard& guard) no
 // away than `towing_start`: the parent has to come up to the corner.
 [[nodiscard]] bool is_pinned(const TreeRobot& robot, const Corners& corners, float towing_start) noexcept;
 
-// No obstacle known to me is nearer than `clearance` to the inside of segment a-b (own frame, m).
+// No obstacle known to me is nearer than `clearance` to the inside of segment a-b (own frame, C).
 [[nodiscard]] bool is_free(const TreeRobot& robot, const Corners& corners, Vec2 a, Vec2 b, float clearance) noexcept;
 
 }  // namespace banyan

@@ -9,7 +9,7 @@
 
 namespace banyan {
 
-inline constexpr float narrow = 0.5F;                 // of `clearance`: just past a body, better than nothing
+inline constexpr float narrow = 0.5F;                // of `clearance`: just past a body, better than nothing
 inline constexpr float obstacle_clearance = 0.025F;  // C: a tree edge must pass a corner at least this far away
 
 // Every robot that is in the way matters.

@@ -54,7 +54,7 @@ void watch_relief(PowerRobot& me) noexcept;
 // A relief that I am part of does not come to an end: my edge is too long, and a robot in it would give it slack.
 [[nodiscard]] bool is_stuck(const PowerRobot& me) noexcept;
 
-// I take part in a relief, and move for it: where to, own frame, m.
+// I take part in a relief, and move for it: where to, own frame, C.
 [[nodiscard]] bool find_relief_spot(const PowerRobot& me, Vec2& spot) noexcept;
 
 // Calls for reliefs are farther off than those of edges that hold workers back, by so many hops and more: the less

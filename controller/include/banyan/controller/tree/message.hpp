@@ -24,7 +24,8 @@ constexpr bool newer(RootToken a, RootToken b) noexcept {
 }
 
 inline constexpr std::uint16_t unknown_label = 0xFFFF;
-inline constexpr std::uint16_t largest_label = unknown_label - 1;  // nothing fits behind it: such a robot takes no child
+// Nothing fits behind it: such a robot takes no child.
+inline constexpr std::uint16_t largest_label = unknown_label - 1;
 inline constexpr std::uint16_t invalid_depth = 0;
 inline constexpr std::uint8_t unreachable = 0xFF;
 inline constexpr std::uint8_t nobody_calls = 0xFF;
@@ -56,8 +57,8 @@ struct TreeStanding : TreeTies {
   std::uint8_t call_hops = nobody_calls;  // hops to an edge whose need no spare has answered
   Serial epoch = 0;
   std::uint16_t label = unknown_label;  // distance to the root along hops (label.hpp, keep_up)
-  Serial seqno = 0;                        // the root's count as it came down the tree: (seqno, label) orders the tree
-  std::uint16_t depth = invalid_depth;     // root 1; 0: not connected to the root by tree edges
+  Serial seqno = 0;                     // the root's count as it came down the tree: (seqno, label) orders the tree
+  std::uint16_t depth = invalid_depth;  // root 1; 0: not connected to the root by tree edges
   RobotId flood_parent = nobody;
   RobotCount flood_robots = 0;  // echo sums
   RobotCount flood_workers = 0;
@@ -66,8 +67,8 @@ struct TreeStanding : TreeTies {
   // Alg. 2's c_i, beside the sums above; nothing depends on it. So a robot that heals says here whom it hears
   // (healing/mutual.cpp); a field more would be too much for one message, and for the firmware.
   RobotCount count = 0;
-  std::uint16_t want = 0;  // largest remaining worker distance below me
-  std::int16_t pull_x = 0;    // target pull, edge frame to `up`, 1 = pull_unit
+  std::uint16_t want = 0;   // largest remaining worker distance below me
+  std::int16_t pull_x = 0;  // target pull, edge frame to `up`, 1 = pull_unit
   std::int16_t pull_y = 0;
   RobotId request = nobody;         // the owner whose edge I want to join
   RobotId inserted_child = nobody;  // I have just been inserted above this robot
@@ -77,9 +78,9 @@ struct TreeStanding : TreeTies {
 
 // What a receiver uses only in the tick in which it is heard, or passes on.
 struct TreeNews {
-  RootToken root;                  // gossip: the newest root token I know
-  RobotId new_root = nobody;       // offer of the token root.sequence + 1
-  Coordinate centroid_x;  // centroid - addressee, edge frame to `new_root`; with no offer: burst_of()
+  RootToken root;             // gossip: the newest root token I know
+  RobotId new_root = nobody;  // offer of the token root.sequence + 1
+  Coordinate centroid_x;      // centroid - addressee, edge frame to `new_root`; with no offer: burst_of()
   Coordinate centroid_y;
 
   friend bool operator==(const TreeNews&, const TreeNews&) = default;
@@ -136,10 +137,11 @@ template <class Visitor, class M> constexpr void visit_tree_block(Visitor& visit
   visit.robot("inserted_child", "the robot above which the sender has just been inserted, -1: nobody",
               m.inserted_child);
   visit.robot("new_root", "the robot to which the root token is offered, -1: nobody", m.new_root);
-  visit.coordinate("centroid_x",
-               "with the offer: centroid relative to that robot, along the edge to it; with none: the longest burst of "
-               "loss known, ticks",
-               m.centroid_x);
+  visit.coordinate(
+      "centroid_x",
+      "with the offer: centroid relative to that robot, along the edge to it; with none: the longest burst of "
+      "loss known, ticks / 256",
+      m.centroid_x);
   visit.coordinate("centroid_y", "the same, to the left of that edge", m.centroid_y);
 }
 

@@ -92,10 +92,10 @@ struct TreeRobot {
   const TreeParams& params;
   const Reading& reading;
   TreeState& self;
-  const Vec2* target = nullptr;  // own frame, m; null unless a worker
+  const Vec2* target = nullptr;  // own frame, C; null unless a worker
   std::span<Heard> heard;
   NewsList news;
-  std::span<const Vec2> obstacles;  // nearest point of each within the proximity sensor's reach, own frame, m
+  std::span<const Vec2> obstacles;  // nearest point of each within the proximity sensor's reach, own frame, C
   const Carry& carry;               // from the frame at the last step into mine
   int elapsed_ticks;                // since the last step
   int loss_ticks = 0;               // how long lost packets may silence a living neighbour; 0: unknown
@@ -133,15 +133,12 @@ struct TreeRobot {
   [[nodiscard]] const TreeTable& table() const noexcept { return self.neighbors; }
   [[nodiscard]] bool is_root() const noexcept { return self.root.id == self.id; }
   // I, and longer where packets are lost.
-  [[nodiscard]] int liveness_ticks() const noexcept {
-    return std::max(whole(params.liveness_rounds), loss_ticks);
-  }
+  [[nodiscard]] int liveness_ticks() const noexcept { return std::max(whole(params.liveness_rounds), loss_ticks); }
   // How long a connector waits for a child; one that has just chosen it may not have been heard yet.
   // A silent one counts as alive for long where packets get lost many in a row.
   [[nodiscard]] int patience_ticks() const noexcept {
     constexpr int sooner_in_bursts = 6;  // loss_ticks is the longest row of losses, and most are far shorter
-    return std::max(whole(params.connector_rounds),
-                    has_bursts() ? loss_ticks / sooner_in_bursts : loss_ticks);
+    return std::max(whole(params.connector_rounds), has_bursts() ? loss_ticks / sooner_in_bursts : loss_ticks);
   }
   // The longest edge a robot may choose (protocol 2, row 4).
   [[nodiscard]] float parent_range() const noexcept {

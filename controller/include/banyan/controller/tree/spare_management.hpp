@@ -29,7 +29,7 @@ void count_unserved(TreeRobot& robot, bool unserved) noexcept;
 // A child that is not a spare is in NEED.
 [[nodiscard]] bool child_in_need(const TreeRobot& robot) noexcept;
 
-// Where a spare in EXTEND EDGE is heading: the midpoint of the edge it was granted, own frame, m.
+// Where a spare in EXTEND EDGE is heading: the midpoint of the edge it was granted, own frame, C.
 // False if it does not know both ends.
 [[nodiscard]] bool edge_midpoint(const TreeRobot& robot, RobotId owner, Vec2& midpoint) noexcept;
 

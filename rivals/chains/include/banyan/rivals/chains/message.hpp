@@ -18,17 +18,17 @@ constexpr Ids no_ids() noexcept { return {nobody, nobody, nobody, nobody}; }
 struct Message {
   static constexpr std::uint8_t blocks = 0;
   RobotId id = nobody;
-  RobotId worker = nobody;      // of its chain; nobody: it is free
-  std::uint8_t chain = 0;       // which of that worker's; of a worker: for which it asks
-  bool whole = false;           // the chain is complete from here to the worker
-  Ids above = no_ids();         // the robots towards the base, its parent first; of a worker: the parent in each chain
-  Ids below = no_ids();         // the robots towards the worker, its child first
-  std::uint8_t links = 0;       // between it and the worker
-  std::uint16_t beyond = 0;  // along them and on to the target
-  std::uint16_t path = 0;    // straight from the base to the target
-  RobotId asks = nobody;        // a free robot, to become its parent
-  RobotId root = nobody;        // the base,
-  std::uint8_t root_age = 0;    // from so many ticks ago
+  RobotId worker = nobody;    // of its chain; nobody: it is free
+  std::uint8_t chain = 0;     // which of that worker's; of a worker: for which it asks
+  bool whole = false;         // the chain is complete from here to the worker
+  Ids above = no_ids();       // the robots towards the base, its parent first; of a worker: the parent in each chain
+  Ids below = no_ids();       // the robots towards the worker, its child first
+  std::uint8_t links = 0;     // between it and the worker
+  std::uint16_t beyond = 0;   // along them and on to the target
+  std::uint16_t path = 0;     // straight from the base to the target
+  RobotId asks = nobody;      // a free robot, to become its parent
+  RobotId root = nobody;      // the base,
+  std::uint8_t root_age = 0;  // from so many ticks ago
 
   friend bool operator==(const Message&, const Message&) = default;
 };

@@ -16,7 +16,7 @@ struct Params : RivalParams {
   }
   float safe_distance = 0.56F;      // SAFE
   float critical_distance = 0.64F;  // CRITICAL
-  float chains_per_target = 1.0F;     // k
+  float chains_per_target = 1.0F;   // k
   float request_rounds = 20.0F;
   float ignore_rounds = 100.0F;
   float gap_patience_drives = 2.0F;

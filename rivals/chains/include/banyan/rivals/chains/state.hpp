@@ -38,8 +38,8 @@ struct State : KnownRoot {
   KnownPlace child_place;
   Ids below = no_ids();    // the child that it has or had, then what that listed
   std::uint8_t links = 0;  // to the worker
-  float beyond = 0.0F;   // along them and on to the target
-  float path = 0.0F;     // straight from the base to the target
+  float beyond = 0.0F;     // along them and on to the target
+  float path = 0.0F;       // straight from the base to the target
   bool whole = false;
   KnownPlace gap;                  // of a relay whose child fell silent: the place to take
   Vec2 outwards;                   // from there to the next

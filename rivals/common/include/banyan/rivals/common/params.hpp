@@ -17,7 +17,7 @@ struct RivalParams : Machine {
   float target_gain = 1.0F;  // tau
   float guard_rate = 10.0F;
   float arrival_distance = 0.1F;
-  float speed_gain = 1.0F;  // K
+  float speed_gain = 1.0F;     // K
   float longest_link = 0.95F;  // no kept link outgrows it
 };
 

@@ -30,8 +30,8 @@ void begin_step(const RivalParams& params, State& state, const Inputs<HeardOf<Me
                 const Ties& ties) noexcept {
   state.tally.rejected += inputs.rejected();
   const Carry carry = inputs.carry();
-  state.neighbors.renew(state.id, inputs.heard(), carry, inputs.elapsed_ticks(), whole(params.liveness_rounds),
-                        params, ties);
+  state.neighbors.renew(state.id, inputs.heard(), carry, inputs.elapsed_ticks(), whole(params.liveness_rounds), params,
+                        ties);
   state.assignment.follow(inputs.orders(), carry);
 }
 

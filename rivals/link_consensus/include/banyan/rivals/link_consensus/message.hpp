@@ -16,7 +16,7 @@ inline constexpr std::uint16_t not_rooted = 0xFFFF;  // as a way to the root: th
 struct Bid {
   RobotId owner = nobody;  // nobody: there is none
   RobotId other = nobody;
-  std::uint16_t length = 0;    // the longest link is the most urgent
+  std::uint16_t length = 0;       // the longest link is the most urgent
   std::uint8_t serial = 0;        // the owner's bids are numbered
   std::uint8_t reach = 0;         // hops that it may still travel
   std::uint16_t lease_ticks = 0;  // for so long robots that vouch for it vouch for no other

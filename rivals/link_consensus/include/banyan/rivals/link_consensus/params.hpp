@@ -8,9 +8,9 @@
 namespace banyan::rivals::link_consensus {
 
 struct Params : RivalParams {
-  float add_distance = 0.6F;       // r of Zavlanos & Pappas: nearer robots make a link
+  float add_distance = 0.6F;        // r of Zavlanos & Pappas: nearer robots make a link
   float nominate_distance = 0.75F;  // longer links are proposed to be given up
-  float link_gain = 0.01F;           // of the potential along a link
+  float link_gain = 0.01F;          // of the potential along a link
   float root_silence_rounds = 50.0F;
 };
 

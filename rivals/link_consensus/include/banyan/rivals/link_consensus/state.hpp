@@ -75,7 +75,7 @@ struct State {
   std::uint8_t serial = 0;            // of my last own bid
   std::uint16_t own_lease_ticks = 1;  // its full length
   bool insists = false;               // my next bid has the largest reach
-  std::uint16_t tried = 0xFFFF;    // my next bid is about a link shorter than this
+  std::uint16_t tried = 0xFFFF;       // my next bid is about a link shorter than this
   std::uint16_t rest_ticks = 0;       // time until my next bid
 
   Tally tally;  // never read

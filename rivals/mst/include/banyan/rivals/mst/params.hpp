@@ -8,11 +8,11 @@
 namespace banyan::rivals::mst {
 
 struct Params : RivalParams {
-  float trigger_distance = 0.8F;  // a longer edge asks for a new tree
+  float trigger_distance = 0.8F;      // a longer edge asks for a new tree
   float least_period_rounds = 60.0F;  // between two trees
-  float countdown_rounds = 20.0F;    // from the first word of a new tree to its construction
-  float build_rounds = 250.0F;       // a construction that takes longer is begun anew
-  float consensus_gain = 4.0F;       // 1/C, of the motion of robots that have not been sent anywhere
+  float countdown_rounds = 20.0F;     // from the first word of a new tree to its construction
+  float build_rounds = 250.0F;        // a construction that takes longer is begun anew
+  float consensus_gain = 4.0F;        // 1/C, of the motion of robots that have not been sent anywhere
 };
 
 [[nodiscard]] std::span<const Parameter<Params>> parameters() noexcept;
