@@ -104,10 +104,22 @@ std::string rival_of(const std::string& file) {
   return std::regex_match(file, m, in_rivals) && m[1] != "common" ? m[1].str() : "";
 }
 
+// The paper's algorithms share nothing with others but core/ (include_direction_test.cpp): the paper's names are theirs.
+bool is_of_paper(const std::string& file) {
+  return file.starts_with("controller/") && file.find("/paper/") != std::string::npos;
+}
+bool is_of_another_algorithm(const std::string& file) {
+  static const std::regex in_core(R"(^controller/(include/banyan/controller|src)/core/.*)");
+  return !is_of_paper(file) && (file.starts_with("rivals/") || file.starts_with("controller/")) &&
+         !std::regex_match(file, in_core);
+}
+
 bool are_one(const Definition& a, const Definition& b) {
   const bool of_two_rivals =
       !rival_of(a.file).empty() && !rival_of(b.file).empty() && rival_of(a.file) != rival_of(b.file);
-  return of_two_rivals || (!a.alias.empty() && a.alias == b.alias);
+  const bool of_paper = (is_of_paper(a.file) && is_of_another_algorithm(b.file)) ||
+                        (is_of_paper(b.file) && is_of_another_algorithm(a.file));
+  return of_two_rivals || of_paper || (!a.alias.empty() && a.alias == b.alias);
 }
 
 std::string twice(const std::map<std::string, std::string>& files) {
@@ -166,6 +178,10 @@ TEST(TypeNames, RivalsAreComparedWithTheRoomsAlone) {
   const std::string x = "struct X {};";
   EXPECT_EQ(twice({{"rivals/one/src/a.cpp", x}, {"rivals/two/src/a.cpp", x}}), "");
   EXPECT_NE(twice({{"rivals/one/src/a.cpp", x}, {"rivals/one/src/b.cpp", x}}), "");
+  EXPECT_EQ(twice({{"controller/src/paper/a.cpp", x}, {"controller/src/tree/a.cpp", x}}), "");
+  EXPECT_EQ(twice({{"controller/src/paper/a.cpp", x}, {"rivals/two/src/a.cpp", x}}), "");
+  EXPECT_NE(twice({{"controller/src/paper/a.cpp", x}, {"controller/src/core/a.cpp", x}}), "");
+  EXPECT_NE(twice({{"controller/src/paper/a.cpp", x}, {"record/src/a.cpp", x}}), "");
   EXPECT_NE(twice({{"rivals/common/src/a.cpp", x}, {"rivals/two/src/a.cpp", x}}), "");
   EXPECT_NE(twice({{"record/src/a.cpp", x}, {"rivals/two/src/a.cpp", x}}), "");
 }

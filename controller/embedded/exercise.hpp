@@ -78,8 +78,8 @@ std::uint64_t exercise(Step step, Drive drive, State& state, Message said) noexc
 union Memory {
   ConvoyState convoy;
   paper::State paper;
-  Memory() noexcept {}   // nothing lives in it yet
-  ~Memory() noexcept {}  // the states are trivial
+  constexpr Memory() noexcept {}  // nothing lives in it yet
+  ~Memory() noexcept {}           // the states are trivial
 };
 
 // Every algorithm with every drive, as connector and as worker; names and results go to `report`.

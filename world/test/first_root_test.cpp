@@ -7,12 +7,10 @@
 namespace banyan::world {
 namespace {
 
-class FirstRoot : public testing::TestWithParam<std::string> {};
-
-TEST_P(FirstRoot, IsReplacedIfItDiesUnheard) {
+TEST(FirstRoot, IsReplacedIfItDiesUnheard) {
   for (const double pitch_m : {0.32, 1.3})
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-      Scenario scenario = ring(GetParam(), 40, 3, 4.0, seed);
+      Scenario scenario = ring("convoy", 40, 3, 4.0, seed);
       scenario.swarm.start.pitch_m = pitch_m;
       scenario.radio.loss = 0.2;
       scenario.events.push_back({.time_s = 0.1, .action = Kill{.of = Kill::Of::root}});
@@ -26,9 +24,6 @@ TEST_P(FirstRoot, IsReplacedIfItDiesUnheard) {
       EXPECT_EQ(living_roots(world), 1);
     }
 }
-
-INSTANTIATE_TEST_SUITE_P(All, FirstRoot, testing::Values("convoy", "outwards", "inwards"),
-                         [](const testing::TestParamInfo<std::string>& info) { return info.param; });
 
 }  // namespace
 }  // namespace banyan::world

@@ -7,11 +7,9 @@
 namespace banyan::world {
 namespace {
 
-class StuckWorker : public testing::TestWithParam<std::string> {};
-
-TEST_P(StuckWorker, IsReplaced) {
+TEST(StuckWorker, IsReplaced) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    Scenario scenario = ring(GetParam(), 40, 3, 4.0, seed);
+    Scenario scenario = ring("convoy", 40, 3, 4.0, seed);
     const std::size_t stuck = World(scenario).targets()[1].worker;
     scenario.events.push_back({.time_s = 2.0, .action = Freeze{stuck}});
     World world(scenario);
@@ -34,9 +32,6 @@ TEST(NearWorker, GoesRoundAWallThatIsRightBeforeItsTarget) {
   while (world.tick() < 600 && !world.holder(0)) world.step();
   EXPECT_TRUE(world.holder(0));
 }
-
-INSTANTIATE_TEST_SUITE_P(All, StuckWorker, testing::Values("convoy", "outwards", "inwards"),
-                         [](const testing::TestParamInfo<std::string>& info) { return info.param; });
 
 }  // namespace
 }  // namespace banyan::world

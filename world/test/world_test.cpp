@@ -304,9 +304,9 @@ TEST(World, AnImpossibleScenarioIsRefusedWithAllItsFaults) {
 }
 
 TEST(World, NeedsAtMostNineAndAHalfKilobytesPerRobot) {
-  for (const auto& [algorithm, reading, most] : {std::tuple{"outwards", "literal", 8'704U},
-                                                 {"outwards", "corrected", 8'704U},
-                                                 {"inwards", "corrected", 8'704U},
+  for (const auto& [algorithm, reading, most] : {std::tuple{"outwards", "literal", 8'960U},
+                                                 {"outwards", "corrected", 8'960U},
+                                                 {"inwards", "corrected", 8'960U},
                                                  {"convoy", "corrected", 9'728U}})
     for (const std::size_t robots : {94U, 1000U}) {
       Scenario s = ring(algorithm, robots, 4, 9.0, 1);

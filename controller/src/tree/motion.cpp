@@ -14,36 +14,24 @@ int nearest_up(const TreeRobot& robot) noexcept {
   return robot.parent >= 0 ? robot.parent : robot.old_parent >= 0 ? robot.old_parent : robot.hold;
 }
 
-// In how many of the two trees an edge joins neighbour k and me.
-int edges_to(const TreeRobot& robot, int k) noexcept {
-  const TreeStanding& m = robot.table().message(k);
-  const bool in_new = k == robot.parent || m.parent == robot.self.id;
-  const bool in_old = k == robot.old_parent || m.old_parent == robot.self.id;
-  return robot.reading.counts_edges_once ? 1 : static_cast<int>(in_new) + static_cast<int>(in_old);
-}
-
-// u^tree,new + u^tree,old. Each term is clamped: at a tenth of C the law says -4000.
+// u^tree; an edge of both trees counts once. Each term is clamped: at a tenth of C the law says -4000.
 Vec2 tree_force(const TreeRobot& robot) noexcept {
   Vec2 u;
   for_each_tree_neighbor(robot, [&](int k) {
     const float magnitude = std::clamp(interaction(robot.table().range(k), robot.params), -1.0F, 1.0F);
-    u += unit(robot.table().position(k)) * (magnitude * static_cast<float>(edges_to(robot, k)));
+    u += unit(robot.table().position(k)) * magnitude;
   });
   return u;
 }
 
-// ADJUST POSITION: beyond S straight to the reference; within, orbit (literal) or stand still,
-// because orbiting spares block lines of sight.
+// ADJUST POSITION: straight to the reference when far from it; near it, spares stand still, because orbiting ones block
+// lines of sight.
 Vec2 adjust_position(const TreeRobot& robot) noexcept {
   const TreeParams& p = robot.params;
   const int k = robot.table().find(robot.self.parent != nobody ? robot.self.parent : robot.self.reference);
   if (k < 0) return avoidance(robot);
   const Vec2 reference = robot.table().position(k);
   const float d = norm(reference);
-  if (!robot.reading.spares_stand_still) {
-    if (d > p.safe_range) return unit(reference);
-    return unit(Vec2{reference.y, -reference.x}) * p.target_gain + avoidance(robot);
-  }
   // A spare next to the tree stays within reach of its edges; a crowd far from the tree stays spread out.
   const float reach = robot.table().message(k).role != Role::spare ? 0.5F * p.recruitment_distance : p.safe_range;
   const bool called = robot.self.called && d > p.avoidance_range;
@@ -61,7 +49,6 @@ Vec2 avoidance(const TreeRobot& robot) noexcept {
     if (d >= a || d <= same_spot || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
     u += table.position(k) * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
   }
-  if (!robot.reading.avoids_obstacles) return u;
   for (const Vec2 o : robot.obstacles) {
     const float d = norm(o);
     if (d < a && d > same_spot) u += o * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
@@ -75,12 +62,12 @@ Vec2 spring_motion(const TreeRobot& robot) noexcept {
   const Vec2 parent = up >= 0 ? robot.table().position(up) : Vec2{};
   const float d = norm(parent);
   const bool silent = up >= 0 && !robot.is_linked(up);
-  if (robot.reading.keeps_links && up < 0 && !robot.is_root() && robot.table().size() == 0) return {};  // none heard
+  if (up < 0 && !robot.is_root() && robot.table().size() == 0) return {};  // none heard
   // Emergency: u = p_parent, at full speed; towards a silent parent's estimated position.
   if (up >= 0 && (d > p.ideal_distance || silent)) return unit(parent);
   if (is_orphan(robot)) return d > p.safe_range ? unit(parent) : Vec2{};
   const Vec2 u = clamped(robot.self.pull + avoidance(robot), 1.0F);
-  return tree_force(robot) + (up >= 0 ? safe_part(u, parent, p, robot.reading) : u);
+  return tree_force(robot) + (up >= 0 ? safe_part(u, parent, p) : u);
 }
 
 Vec2 attendance_motion(const TreeRobot& robot) noexcept {
@@ -96,10 +83,9 @@ float interaction(float length, const TreeParams& params) noexcept {
   return length > same_spot ? params.interaction_gain / length * (s2 - s2 * s2) : -1.0F;
 }
 
-Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params, const Reading& reading) noexcept {
+Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params) noexcept {
   const float d = norm(parent);
   if (d <= params.safe_range) return u;
-  if (!reading.slides_beyond_safe) return {};
   const Vec2 away = -parent / d;
   return u - away * std::max(0.0F, dot(u, away));
 }

@@ -115,8 +115,7 @@ void reattach_orphan(TreeRobot& robot, const ParentRule& rule) noexcept {
 // The order is still that of the old root: a robot that has handed over the token is ahead of its heir, and
 // would take as parent a robot that is below it in the tree.
 bool hangs_on_heir(const TreeRobot& robot) noexcept {
-  return robot.reading.keeps_links && robot.self.phase == Phase::select_root && robot.self.parent == nobody &&
-         robot.old_parent_alive();
+  return robot.self.phase == Phase::select_root && robot.self.parent == nobody && robot.old_parent_alive();
 }
 
 // A spare that has just joined my edge has its parent's sequence number of the last tick: I wait for it.
@@ -176,9 +175,6 @@ void update_tree_hops(TreeRobot& robot) noexcept {
     });
   }
   self.tree_hops = nearest < 0 ? unreachable : static_cast<std::uint8_t>(hops + 1);
-  // For an orphan that drafts this spare (in GROW TREE) it must be ahead; one about to join an edge stays behind.
-  if (nearest >= 0 && !robot.reading.keeps_links && self.phase >= Phase::grow_tree && self.request == nobody)
-    keep_up(robot, nearest);
 }
 
 }  // namespace
@@ -211,7 +207,7 @@ void keep_up(TreeRobot& robot, int k) noexcept {
   // A newer number permits a smaller label. Labels that only grew would in a long epoch reach the largest one, behind
   // which there is no place.
   const std::uint16_t below = label_below(m.label, robot.table().range(k));
-  const bool renews = robot.reading.renews_labels && self.phase >= Phase::grow_tree;
+  const bool renews = self.phase >= Phase::grow_tree;
   if (self.label == unknown_label || self.label <= m.label || (renews && self.label > below)) self.label = below;
 }
 
@@ -223,8 +219,7 @@ void take_parent(TreeRobot& robot, int k) noexcept {
   self.pending_parent = nobody;
   keep_up(robot, k);
   // A robot without a label that is as fresh as its parent must not be ahead of it.
-  if (robot.reading.keeps_links && self.label == unknown_label)
-    self.label = label_below(robot.table().message(k).label, robot.table().range(k));
+  if (self.label == unknown_label) self.label = label_below(robot.table().message(k).label, robot.table().range(k));
   if (self.phase >= Phase::grow_tree) robot.drop_old_parent();
 }
 

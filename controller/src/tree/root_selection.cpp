@@ -15,13 +15,12 @@ namespace {
 int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit, bool leaves) noexcept {
   const TreeState& self = robot.self;
   const TreeTable& table = robot.table();
-  const float reach = robot.reading.keeps_links ? longest_link : 1.0F;
   const Vec2 place = leaves ? Vec2{} : self.centroid;
-  const float limit = leaves ? reach : norm(place) - robot.params.centroid_margin;
+  const float limit = leaves ? longest_link : norm(place) - robot.params.centroid_margin;
   return least_of(table.size(), limit, [&](int k) {
     const TreeStanding& m = table.message(k);
-    const bool may = table.age(k) == 0 && m.role != Role::worker && m.epoch == self.epoch && table.range(k) <= reach &&
-                     may_inherit(k);
+    const bool may = table.age(k) == 0 && m.role != Role::worker && m.epoch == self.epoch &&
+                     table.range(k) <= longest_link && may_inherit(k);
     return may ? distance(table.position(k), place) : limit;
   });
 }
@@ -35,7 +34,7 @@ void hand_over(TreeRobot& robot, Serial held) noexcept {
   // The heir has taken the token, and may have passed it on already; or a rival has one of the same number.
   const bool taken = self.new_root != nobody && (self.root.id == self.new_root || self.root.sequence != advanced(held));
   const int heir = taken ? robot.table().find(self.new_root) : -1;
-  if (robot.reading.keeps_links && heir >= 0 && self.parent == nobody) robot.set_old_parent(heir);
+  if (heir >= 0 && self.parent == nobody) robot.set_old_parent(heir);
   self.new_root = nobody;
 }
 

@@ -116,10 +116,9 @@ RobotId nearest_caller(const TreeRobot& robot) noexcept {
   return best < 0 ? nobody : table.id(best);
 }
 
-// Corrected reading: a spare that stands still may be far from where it is needed. Needs that no spare
-// answers spread hop by hop, and spares without an edge in sight follow the gradient.
-// True while a call is live: once it is over, the hops that robots tell each other count up, which is no
-// gradient to follow.
+// A spare that stands still may be far from where it is needed. Needs that no spare answers spread hop by hop, and
+// spares without an edge in sight follow the gradient. True while a call is live: once it is over, the hops that robots
+// tell each other count up, which is no gradient to follow.
 bool spread_call(TreeRobot& robot, const EdgeRule& rule) noexcept {
   TreeState& self = robot.self;
   const bool steady = robot.call_hops < self.call_hops;
@@ -128,7 +127,7 @@ bool spread_call(TreeRobot& robot, const EdgeRule& rule) noexcept {
   const auto in_vain = [&] {
     return self.unserved_ticks > 0 && self.unserved_ticks > whole(robot.params.call_after_rounds);
   };
-  if (robot.reading.calls_spares && in_vain() && rule.may_call()) self.call_hops = 0;
+  if (in_vain() && rule.may_call()) self.call_hops = 0;
   else
     self.call_hops = robot.call_hops < call_reach_hops ? static_cast<std::uint8_t>(robot.call_hops + 1) : nobody_calls;
   return steady;
@@ -178,7 +177,7 @@ void follow_request(TreeRobot& robot, const EdgeRule& rule) noexcept {
 
 void look_for_edge(TreeRobot& robot, bool call) noexcept {
   TreeState& self = robot.self;
-  self.reference = robot.reading.keeps_links && robot.hold < 0 ? nobody : nearest_reference(robot);
+  self.reference = robot.hold < 0 ? nobody : nearest_reference(robot);
   self.request = self.phase == Phase::grow_tree ? nearest_edge_in_need(robot) : nobody;
   self.called = call && self.request == nobody && self.phase == Phase::grow_tree && robot.call_hops < call_reach_hops;
   if (self.called) self.reference = nearest_caller(robot);
@@ -218,8 +217,7 @@ RobotId nearest_reference(const TreeRobot& robot) noexcept {
 
 bool is_stretched(const TreeRobot& robot) noexcept {
   const TreeState& self = robot.self;
-  return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.recruitment_distance &&
-         (!robot.reading.asks_while_wanted || self.want > 0.0F);
+  return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.recruitment_distance && self.want > 0.0F;
 }
 
 bool child_in_need(const TreeRobot& robot) noexcept {

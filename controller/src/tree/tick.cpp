@@ -52,7 +52,7 @@ void file_heard(TreeRobot& robot) noexcept {
     return id == self.parent || id == self.old_parent || m.parent == self.id || m.old_parent == self.id ||
            hold_of(m) == self.id;
   };
-  table.begin(robot.elapsed_ticks, robot.reading.filters_positions ? robot.params.way_in_a_round() : 0.0F);
+  table.begin(robot.elapsed_ticks, robot.params.way_in_a_round());
   const bool noisy = table.filter().has_seen_noise();
   for (Heard& h : robot.heard) {
     const TreeMessage& m = *h.message;

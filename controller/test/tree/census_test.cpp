@@ -67,7 +67,7 @@ struct Tree {
       TreeState& s = states[i];
       const Inputs<Heard> inputs(heard, {}, test_platform);
       Workspace space(inputs);
-      TreeRobot robot(params, corrected_reading, s, inputs, space);
+      TreeRobot robot(params, s, inputs, space);
       file_heard(robot);
       forget_silent(
           robot, [](int) { return false; }, [](int, int) {});

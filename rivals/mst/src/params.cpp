@@ -20,7 +20,7 @@ constexpr Parameter<Params> of_mst[] = {
       "More than log2 N rounds through the longest chain.", "mst", 10.0F, 36000.0F},
      &Params::build_rounds},
     {{"consensus_gain", "", "1/C",
-      "mst: a robot without a target goes to the mean of its tree neighbours, this much per C",
+      "mst: a robot without a target goes to the mean of its tree neighbours, this much of v_max per C",
       "Larger follows more closely and comes to rest later.", "mst", 0.0F, 100.0F},
      &Params::consensus_gain},
 };

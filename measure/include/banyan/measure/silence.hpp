@@ -13,7 +13,7 @@ namespace banyan::measure {
 constexpr double usual_liveness_ticks = 12.0;
 
 // The liveness period I of the algorithm that runs in this world, after which a neighbour that was not heard counts as
-// gone: its parameter liveness_period_s, or usual_liveness_ticks.
+// gone: its parameter liveness_rounds times the tick, or usual_liveness_ticks.
 [[nodiscard]] double liveness_period_s(const world::World& world);
 
 // Counts, per pair of ends, the ticks in a row in which a tree edge between them had no radio link. A silence begins

@@ -29,7 +29,7 @@ struct KnownOfHealing : KnownOfTree {
 struct HealingRobot : TreeRobot {
   HealingRobot(const HealingParams& params_, HealingState& self_, const Inputs<Heard>& inputs,
                Workspace& space) noexcept
-      : TreeRobot(params_, corrected_reading, self_, inputs, space), params(params_), self(self_), held(self_.hold) {
+      : TreeRobot(params_, self_, inputs, space), params(params_), self(self_), held(self_.hold) {
     take_patience();
   }
 

@@ -32,7 +32,7 @@ template <class Visit> void for_each_tree_neighbor(const TreeRobot& robot, Visit
 
 // Paper's f: what is left of target + avoidance for a robot whose parent is at `parent` (own frame).
 // literal: all up to S, nothing beyond; corrected: beyond S all but the part away from the parent.
-[[nodiscard]] Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params, const Reading& reading) noexcept;
+[[nodiscard]] Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params) noexcept;
 
 // The velocity (v_max, own frame) nearest to `u`, in units of speed_gain, within the guard and the wheels' limits.
 [[nodiscard]] Vec2 allowed(Vec2 u, const Guard& guard, const TreeParams& params) noexcept;

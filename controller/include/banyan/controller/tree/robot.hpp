@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the rooms of the tree share during one step: parameters, reading, state, what was heard, and an
+// What the rooms of the tree share during one step: parameters, state, what was heard, and an
 // index of the neighbour table that is made once per tick so that no room has to search it again.
 #pragma once
 
@@ -11,7 +11,6 @@
 #include "banyan/controller/core/edge_frame.hpp"
 #include "banyan/controller/core/gate.hpp"
 #include "banyan/controller/tree/params.hpp"
-#include "banyan/controller/tree/reading.hpp"
 #include "banyan/controller/tree/state.hpp"
 
 namespace banyan {
@@ -74,10 +73,8 @@ struct KnownOfTree {
 inline constexpr float longest_link = 0.95F;
 
 struct TreeRobot {
-  TreeRobot(const TreeParams& params_, const Reading& reading_, TreeState& self_, const Inputs<Heard>& inputs,
-            Workspace& space) noexcept
+  TreeRobot(const TreeParams& params_, TreeState& self_, const Inputs<Heard>& inputs, Workspace& space) noexcept
       : params(params_),
-        reading(reading_),
         self(self_),
         heard(inputs.heard()),
         obstacles(inputs.obstacles()),
@@ -90,7 +87,6 @@ struct TreeRobot {
   }
 
   const TreeParams& params;
-  const Reading& reading;
   TreeState& self;
   const Vec2* target = nullptr;  // own frame, C; null unless a worker
   std::span<Heard> heard;
@@ -141,9 +137,7 @@ struct TreeRobot {
     return std::max(whole(params.connector_rounds), has_bursts() ? loss_ticks / sooner_in_bursts : loss_ticks);
   }
   // The longest edge a robot may choose (protocol 2, row 4).
-  [[nodiscard]] float parent_range() const noexcept {
-    return reading.keeps_margin ? params.ideal_distance - params.parent_margin : 1.0F;
-  }
+  [[nodiscard]] float parent_range() const noexcept { return params.ideal_distance - params.parent_margin; }
   // A point, relative to me, that the sender has written for me in its edge frame. False if it was not
   // heard in the tick before: what it wrote refers to where both were then, and over a distance a bearing that
   // is a tick old makes an error of a tenth of C.
