@@ -18,7 +18,7 @@ constexpr float off_middle = 0.02F;   // of C: a robot that joins may be so much
 constexpr float sideways = 0.5F;      // the pace of a robot that does not hear its grandparent,
 constexpr float slower = 3.0F;        // times slower if that is the next but one: it is hidden more often
 constexpr int unheard_ticks = 3;
-constexpr int search_ticks = 40;        // to one side, then to the other
+constexpr float search_drives = 0.4F;   // to one side, then to the other
 constexpr float pushes_through = 6.0F;  // between a line and the edges beside it: through the line
 
 // I do not hear my grandparent or, with k = 3, its parent, although the edges there are short: somebody stands between
@@ -32,7 +32,7 @@ Vec2 look_past(const ConvoyRobot& robot, Vec2 up) noexcept {
     if (m.parent == nobody || m.need != Need::no_need) return {};
     over = table.find(m.parent);
     if (over >= 0 && table.age(over) <= unheard_ticks) continue;
-    const bool left = (self.phase_ticks / search_ticks + self.id) % 2 == 0;
+    const bool left = (self.phase_ticks / robot.params.rounds(search_drives) + self.id) % 2 == 0;
     const float pace = hop > 1 ? sideways / slower : sideways;
     return left_of(up) * (left ? pace : -pace);
   }
