@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An algorithm of your own, in a World like any other: these robots drive away from all nearer than half the radio range.
+// An algorithm of your own, in a World like any other: these robots drive away from all nearer than half the radio
+// range.
 #include <algorithm>
 #include <cstdio>
 
@@ -41,7 +42,8 @@ struct Spread {
   static void add_to(Digest& digest, const State& self) { digest.add(self.id); }
 };
 
-constexpr AlgorithmOf<Spread> spread({.name = "spread", .summary = "keeps half the radio range away from other robots"});
+constexpr AlgorithmOf<Spread> spread({.name = "spread",
+                                      .summary = "keeps half the radio range away from other robots"});
 
 int main() {
   world::World world(world::Scenario{}, spread);

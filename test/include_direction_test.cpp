@@ -160,7 +160,7 @@ std::optional<std::string> fault(const fs::path& room_folder, const fs::path& fi
         !name.starts_with("banyan/controller/core/"))
       return "names an algorithm";
     if (on_robot && is_for_hosts(name)) return "is for hosts";
-    if (room == "controller" && product && is_of_paper(file) != is_of_paper(name) &&
+    if (room == "controller" && product && is_of_paper(file.lexically_relative(room_folder)) != is_of_paper(name) &&
         !name.starts_with("banyan/controller/core/"))
       return "is shared with the paper's room";
     if (other == "algorithms" && !product && room != "controller") return std::nullopt;  // tests name them

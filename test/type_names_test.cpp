@@ -104,7 +104,8 @@ std::string rival_of(const std::string& file) {
   return std::regex_match(file, m, in_rivals) && m[1] != "common" ? m[1].str() : "";
 }
 
-// The paper's algorithms share nothing with others but core/ (include_direction_test.cpp): the paper's names are theirs.
+// The paper's algorithms share nothing with others but core/ (include_direction_test.cpp): the paper's names are
+// theirs.
 bool is_of_paper(const std::string& file) {
   return file.starts_with("controller/") && file.find("/paper/") != std::string::npos;
 }

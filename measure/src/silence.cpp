@@ -9,8 +9,8 @@ namespace banyan::measure {
 
 double liveness_period_s(const world::World& world) {
   const auto rows = world.algorithm().parameters();
-  const auto row = std::find_if(rows.begin(), rows.end(),
-                                [](const ParameterInfo* info) { return info->key == "liveness_rounds"; });
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [](const ParameterInfo* info) { return info->key == "liveness_rounds"; });
   if (row == rows.end())
     return usual_liveness_ticks / (1.0 / world.scenario().tick_s);  // 1.2 s, not 1.2000000000000002, at 0.1 s a tick
   const float rounds =

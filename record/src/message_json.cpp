@@ -8,10 +8,9 @@
 namespace banyan::record {
 namespace {
 
-constexpr std::string_view elsewhere[] = {
-    "role",  "phase",  "need",       "id",   "epoch",   "label",
-    "depth", "parent", "old_parent", "want", "request",  // in the frame
-    "root_x", "root_y", "task_x", "task_y"};             // nowhere
+constexpr std::string_view elsewhere[] = {"role",   "phase",  "need",       "id",    "epoch",   "label",
+                                          "depth",  "parent", "old_parent", "want",  "request",  // in the frame
+                                          "root_x", "root_y", "task_x",     "task_y"};           // nowhere
 
 // The name behind an enumerator's field; nothing for other fields.
 std::string_view word(std::string_view field, double value) noexcept {

@@ -22,8 +22,8 @@ struct MessageNumbers {
 void capture_messages(const Swarm& swarm, MessageNumbers& into);
 
 // Whether /banyan/messages has the field. /banyan/frame has what is also in a report (label and want in
-// metres; id is the index). Vectors to an addressee that changes at every tick do not compress: these four would take as
-// much room as all the rest, and mean nothing without their addressee.
+// metres; id is the index). Vectors to an addressee that changes at every tick do not compress: these four would take
+// as much room as all the rest, and mean nothing without their addressee.
 [[nodiscard]] bool is_recorded(const FieldInfo& field) noexcept;
 
 // One object with all fields of robot i in their order; role, phase and need by name.

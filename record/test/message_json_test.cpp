@@ -161,9 +161,12 @@ TEST_F(RecordedMessages, AreWhatWasSentAtEveryRecordedFrame) {
       ASSERT_EQ(values.size(), robots) << name;
       for (std::size_t i = 0; i < robots; ++i) {
         const double number = sent.numbers[i * sent.fields.size() + f];
-        const double sent_m = number < 0.0 ? -1.0 : scenario().radio.range_m * (name == "label" ? number / 256.0 : number);
+        const double sent_m =
+            number < 0.0 ? -1.0 : scenario().radio.range_m * (name == "label" ? number / 256.0 : number);
         const double step_m = scenario().radio.range_m / 256.0;  // on the wire
-        const double rounding = name == "want" ? 0.51e-3 + 0.5 * step_m : field.decimals == 0 && !length ? 1e-6 : 0.51e-3;
+        const double rounding = name == "want"                   ? 0.51e-3 + 0.5 * step_m
+                                : field.decimals == 0 && !length ? 1e-6
+                                                                 : 0.51e-3;
         EXPECT_NEAR(values.at(i).get<double>(), length ? sent_m : number, rounding)
             << name << " of " << i << " at " << tick;
       }

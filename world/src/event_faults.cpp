@@ -129,8 +129,9 @@ std::size_t check_in_order(FaultList& list, const Scenario& scenario, std::size_
 bool check_events_fit(FaultList& list, const Scenario& scenario, std::size_t targets, std::size_t robots) {
   const std::size_t at_most = check_in_order(list, scenario, targets, robots);
   if (at_most + 1 <= robots) return true;
-  list.fail("swarm.robots", std::to_string(robots) + " robots cannot serve " + std::to_string(at_most) +
-                                " targets: each needs a worker, and the root is none of them",
+  list.fail("swarm.robots",
+            std::to_string(robots) + " robots cannot serve " + std::to_string(at_most) +
+                " targets: each needs a worker, and the root is none of them",
             {"targets.count", "targets.positions_m", "swarm.redundancy"});
   return false;
 }

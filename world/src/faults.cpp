@@ -179,10 +179,10 @@ void check_proportions(FaultList& list, const Scenario& scenario) {
   }
   const double share = scenario.robot.radius_m / range;
   if (share < thinnest * (1.0 - rounding) || share > widest * (1.0 + rounding))
-    list.fail("robot.radius_m", "is " + short_text(scenario.robot.radius_m) + " m, " + short_text(share) +
-                                    " of radio.range_m = " + short_text(range) +
-                                    " m; must be 0.001 to 0.17 of it, here " + short_text(thinnest * range) + " to " +
-                                    short_text(widest * range) + " m",
+    list.fail("robot.radius_m",
+              "is " + short_text(scenario.robot.radius_m) + " m, " + short_text(share) +
+                  " of radio.range_m = " + short_text(range) + " m; must be 0.001 to 0.17 of it, here " +
+                  short_text(thinnest * range) + " to " + short_text(widest * range) + " m",
               {"radio.range_m"});
 }
 
@@ -320,8 +320,9 @@ void check_spacing(FaultList& list, const Scenario& scenario) {
   const double pitch = start_pitch_m(scenario);
   const double link = start.link_share * range;
   if (pitch - off < touch)
-    list.fail(key, "robots do not fit: " + (random ? "the pitch" : "pitch_m -" + jitter) + " = " +
-                       short_text(pitch - off) + " m must be at least two radii, " + short_text(touch) + " m",
+    list.fail(key,
+              "robots do not fit: " + (random ? "the pitch" : "pitch_m -" + jitter) + " = " + short_text(pitch - off) +
+                  " m must be at least two radii, " + short_text(touch) + " m",
               {"robot.radius_m"});
   if (!random && pitch + off >= range)
     list.fail(key,

@@ -163,8 +163,7 @@ TEST(Events, WithNobodyLeftANewTargetIsNotAssigned) {
   Scenario s = ring("outwards", 4, 2, 1.5, 1);
   const World probe(s);
   std::size_t free_robot = 0;
-  while (is_worker(probe.swarm(), free_robot) || probe.reports()[free_robot].role == Role::root)
-    ++free_robot;
+  while (is_worker(probe.swarm(), free_robot) || probe.reports()[free_robot].role == Role::root) ++free_robot;
   s.events = {event(0.2, Die{free_robot}), event(0.5, AddTarget{{0.0, 1.0}})};
   World world(s);
   for (int t = 0; t < 10; ++t) world.step();

@@ -78,7 +78,10 @@ const std::vector<Case>& cases() {
        [](Scenario& s) {
          s.mission.parameters = {{"communication_range_m", 2}};
        }},
-      {"mission.parameters", "delta", [](Scenario& s) { s.mission.parameters = {{"ideal_distance", 0.6}}; }},
+      {"mission.parameters", "delta",
+       [](Scenario& s) {
+         s.mission.parameters = {{"ideal_distance", 0.6}};
+       }},
       {"swarm.redundancy", "is 0; allowed: above 0", [](Scenario& s) { s.swarm.redundancy = 0; }},
       {"swarm.redundancy", "robots; at most 65535 are possible",
        [](Scenario& s) {

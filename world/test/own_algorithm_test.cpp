@@ -2,6 +2,7 @@
 // A world that is given an algorithm instead of the name of one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "banyan/algorithms/algorithms.hpp"
@@ -17,6 +18,18 @@ constexpr PaperAlgorithmOf<paper::inwards> mine("mine", "for this test", []() no
   params.safe_range = 0.725F;
   return params;
 });
+
+// docs/paper.md: of the robots of the tree the one with the shortest way to the root through it.
+constexpr paper::Growth shortest_way{
+    .may_join = [](const paper::Robot& robot) noexcept { return robot.self.phase == Phase::select_parent; },
+    .cost =
+        [](const paper::Robot& robot, int k) noexcept {
+          const float way = static_cast<float>(robot.said(k).label) / per_range + robot.range(k);
+          return robot.said(k).committed ? way : not_counted;
+        },
+    .is_complete = [](const paper::Robot& root) noexcept { return root.self.subtree >= root.self.flood_robots; }};
+constexpr PaperAlgorithmOf<shortest_way> shortest_ways("shortest-way", "outwards along shortest ways",
+                                                       paper::outwards_column);
 
 std::uint64_t hash_after_100_ticks(World world) {
   for (int t = 0; t < 100; ++t) world.step();
@@ -63,6 +76,26 @@ TEST(OwnAlgorithm, IsWhatItsModelIsWithTheSameParameters) {
   Scenario scenario;
   scenario.mission.parameters = {{"safe_range", 0.725}};
   EXPECT_EQ(hash_after_100_ticks(World(Scenario{}, mine)), hash_after_100_ticks(World(scenario, inwards())));
+}
+
+TEST(OwnAlgorithm, ARuleOverThePapersTreeIsAFewLines) {
+  Scenario scenario = ring("outwards", 20, 3, 3.0, 1);
+  scenario.radio.line_of_sight = false;
+  World own(scenario, shortest_ways);
+  World papers(scenario, outwards());
+  const auto all_there = [](const World& world) {
+    return std::all_of(world.targets().begin(), world.targets().end(), [&](const Target& target) {
+      return distance(world.positions()[target.worker], target.position) <= 0.2;
+    });
+  };
+  bool was_there = false;
+  for (int t = 0; t < 1500; ++t) {
+    own.step();
+    papers.step();
+    was_there = was_there || all_there(own);
+  }
+  EXPECT_TRUE(was_there);
+  EXPECT_NE(own.hash(), papers.hash());
 }
 
 TEST(OwnAlgorithm, ItsWorldCanBeInterferedWith) {

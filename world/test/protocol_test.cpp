@@ -75,8 +75,16 @@ std::vector<Memory> memories(const World& world) {
     std::vector<Memory> list;
     for (std::size_t i = 0; i < world.size(); ++i) {
       const auto& s = swarm.state(i);
-      list.push_back({s.id, s.is_worker, s.role, s.epoch, s.phase, s.seqno, s.label, s.parent,
-                      {s.root.sequence, s.root.id}, s.new_root});
+      list.push_back({s.id,
+                      s.is_worker,
+                      s.role,
+                      s.epoch,
+                      s.phase,
+                      s.seqno,
+                      s.label,
+                      s.parent,
+                      {s.root.sequence, s.root.id},
+                      s.new_root});
     }
     return list;
   });
@@ -124,8 +132,7 @@ TEST_P(Protocol, ParentsNeverFormACycleAndAreAheadOfTheirChildren) {
         ASSERT_FALSE(parent.is_worker) << chain(robots, i);
       }
       ASSERT_GE(parent.epoch, child.epoch) << chain(robots, i);
-      const bool ahead =
-          parent.seqno > child.seqno || (parent.seqno == child.seqno && parent.label < child.label);
+      const bool ahead = parent.seqno > child.seqno || (parent.seqno == child.seqno && parent.label < child.label);
       ASSERT_TRUE(parent.epoch > child.epoch || ahead) << chain(robots, i);
       std::size_t top = i;
       std::size_t hops = 0;
@@ -223,8 +230,9 @@ TEST_P(Guarded, TheGuardBoundsEveryEdgeOfTheTree) {
           parents.assign(world.size(), nobody);
           taken_at_m.assign(world.size(), 0.0);
         }
-        const double delta_m =
-            world.scenario().radio.range_m * inside(world.swarm(), [](const auto& swarm) { return static_cast<double>(swarm.params().ideal_distance); });
+        const double delta_m = world.scenario().radio.range_m * inside(world.swarm(), [](const auto& swarm) {
+                                 return static_cast<double>(swarm.params().ideal_distance);
+                               });
         for (std::size_t i = 0; i < world.size(); ++i) {
           const Report& s = world.reports()[i];
           const bool taken = s.parent != parents[i];

@@ -145,8 +145,8 @@ TEST(Scale, BatteriesHaveNone) {
 // Its robots do, know and say the same, to the last bit: behind the gate there is no metre and no second.
 class ScaleOf : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(All, ScaleOf,
-                         testing::Values("outwards", "inwards", "convoy", "link-consensus", "mst", "fiedler", "cohesion",
-                                         "chains", "branches"),
+                         testing::Values("outwards", "inwards", "convoy", "link-consensus", "mst", "fiedler",
+                                         "cohesion", "chains", "branches"),
                          [](const auto& tested) {
                            std::string name = tested.param;
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -43,8 +43,9 @@ Vec2 seen(const World& world, std::size_t i, Vec2 p) {
 }
 
 const paper::Message& message_of(const World& world, std::size_t i) {
-  return world.algorithm().name() == "outwards" ? swarm_as<PaperSwarm<paper::outwards, paper::corrected>>(world.swarm()).message(i)
-                                                : swarm_as<PaperSwarm<paper::inwards, paper::corrected>>(world.swarm()).message(i);
+  return world.algorithm().name() == "outwards"
+             ? swarm_as<PaperSwarm<paper::outwards, paper::corrected>>(world.swarm()).message(i)
+             : swarm_as<PaperSwarm<paper::inwards, paper::corrected>>(world.swarm()).message(i);
 }
 
 void expect_near(Vec2 a, Vec2 b, const char* what) {

@@ -110,7 +110,9 @@ TEST(World, LatencyIsExact) {
     s.radio.latency_ticks = latency;
     s.radio.loss = 0.2;
     World world(s);
-    const auto swarm = [&]() -> const auto& { return swarm_as<PaperSwarm<paper::outwards, paper::corrected>>(world.swarm()); };
+    const auto swarm = [&]() -> const auto& {
+      return swarm_as<PaperSwarm<paper::outwards, paper::corrected>>(world.swarm());
+    };
     std::vector<std::vector<paper::Message>> said;  // [tick][robot]
     std::vector<std::vector<Vec2>> positions, headings;
     const auto note = [&] {
@@ -128,7 +130,7 @@ TEST(World, LatencyIsExact) {
         ++heard;
         ASSERT_GT(t, latency);
         const auto sent = static_cast<std::size_t>(t - latency);
-        const paper::Table& table = swarm().state(i).neighbors;
+        const paper::Neighborhood& table = swarm().state(i).neighbors;
         const std::size_t sender = table.id(k);
         EXPECT_EQ(table.messages[static_cast<std::size_t>(k)], said[sent][sender]) << latency << " at " << t;
         // Where the sender was then, seen from where the receiver is now: its odometry carried it along.
@@ -304,10 +306,8 @@ TEST(World, AnImpossibleScenarioIsRefusedWithAllItsFaults) {
 }
 
 TEST(World, NeedsAtMostNineAndAHalfKilobytesPerRobot) {
-  for (const auto& [algorithm, reading, most] : {std::tuple{"outwards", "literal", 8'960U},
-                                                 {"outwards", "corrected", 8'960U},
-                                                 {"inwards", "corrected", 8'960U},
-                                                 {"convoy", "corrected", 9'728U}})
+  for (const auto& [algorithm, reading, most] :
+       {std::tuple{"outwards", "literal", 8'832U}, {"inwards", "corrected", 8'832U}, {"convoy", "corrected", 9'728U}})
     for (const std::size_t robots : {94U, 1000U}) {
       Scenario s = ring(algorithm, robots, 4, 9.0, 1);
       s.mission.reading = reading;

@@ -18,6 +18,7 @@ template <class Visit> void for_each_child(const Robot& robot, Visit visit) noex
 
 }  // namespace
 
+// "Algorithm 1: Distributed centroid estimation algorithm executed by robot i"
 void algorithm_1(Robot& robot) noexcept {
   State& self = robot.self;
   const int parent = robot.is_root() ? -1 : robot.up();
@@ -36,7 +37,8 @@ void algorithm_1(Robot& robot) noexcept {
   }                                               // 11: end if
 }
 
-// The sum is over children: with the parent in it ("neighbors") it diverges (row 5).
+// "Algorithm 2: Tree-based count algorithm for robot i. The depth of robot i in the tree is denoted as d_i." The sum is
+// over children: with the parent in it, as a neighbor, it diverges (row 5).
 void algorithm_2(Robot& robot) noexcept {
   const std::uint32_t d = robot.self.depth;
   std::uint32_t children = 0, c = 0;

@@ -129,9 +129,9 @@ void row_t_guard_links(const Robot& robot, Guard& guard) noexcept {
   }
 }
 
-// ---- Row v: no robot pushes against an obstacle, since odometry is wrong when wheels slip ----
+// ---- Row 13: no robot pushes against an obstacle, since odometry is wrong when wheels slip ----
 
-void row_v_keep_off(const Robot& robot, Guard& guard) noexcept {
+void row_13_keep_off(const Robot& robot, Guard& guard) noexcept {
   constexpr float kept = 0.01F;  // C, between body and obstacle
   for (const Vec2 point : robot.obstacles) {
     const float d = norm(point);
@@ -155,7 +155,7 @@ constexpr Reading corrected{
     .keeps_links = true,
     .renews_labels = true,
     .avoids_obstacles = true,
-    .guard_obstacles = row_v_keep_off,
+    .guard_obstacles = row_13_keep_off,
     .filters_positions = true,
 };
 

@@ -24,6 +24,7 @@ void begin_epoch(Robot& robot) noexcept {
 
 }  // namespace
 
+// "The 'go' signal triggers a state transition in the robots that receive it."
 void listen(Robot& robot) noexcept {
   State& self = robot.self;
   const Serial held = self.root.sequence;
@@ -40,17 +41,20 @@ void listen(Robot& robot) noexcept {
   if (epoch != self.epoch || phase != self.phase) enter(robot, epoch, phase);
 }
 
+// "the robots forget the tree from the previous iteration"
 void enter(Robot& robot, Serial epoch, Phase phase) noexcept {
   State& self = robot.self;
   if (epoch != self.epoch) begin_epoch(robot);
   self.epoch = epoch;
   self.phase = phase;
   self.phase_ticks = self.done_ticks = 0;
-  // "the robots forget the tree from the previous iteration"; one that has no new parent would drift away (row d).
+  // One that has no new parent would drift away (row d).
   const bool hangs_on_it = self.parent == nobody && self.role != Role::spare && !robot.is_root();
   if (phase >= Phase::grow_tree && !hangs_on_it) robot.set_old_parent(nobody);
 }
 
+// "Init -> Start Tree -> Select Parent -> parent selected? -> Grow Tree -> growth done? -> Select Root -> root
+// selected?" (Fig. 1), of which the root decides the diamonds
 void advance(Robot& robot) noexcept {
   constexpr int settle_ticks = 3;      // a barrier holds, and SELECT PARENT lasts, at least so long
   constexpr int patience_ticks = 100;  // with motion and occlusion a count may never be reached (row 7)

@@ -21,6 +21,7 @@ Vec2 u_tree_old_and_new(const Robot& robot) noexcept {
 
 }  // namespace
 
+// "u_i = u_i^tree,old + u_i^tree,new + f_i(d_i^parent) (u_i^target + u_i^avoid) if d_ij <= E, p_i^parent otherwise"
 Vec2 u(const Robot& robot) noexcept {
   const float S = robot.params.safe_range;
   const float E = robot.params.ideal_distance;  // the emergency range, delta (row 1)
@@ -37,6 +38,7 @@ Vec2 u(const Robot& robot) noexcept {
              : unit(p_parent);
 }
 
+// "u_i^tree = epsilon / d_ij ((delta / d_ij)^2 - (delta / d_ij)^4)"
 float interaction(float d, const Params& params) noexcept {
   const float epsilon = params.interaction_gain;
   const float s = params.ideal_distance / d;  // delta / d
@@ -44,6 +46,7 @@ float interaction(float d, const Params& params) noexcept {
   return d > same_spot ? epsilon / d * (s2 - s2 * s2) : -1.0F;
 }
 
+// "the interaction law between robots (i, j) in a parent-child relationship, in either the old or the new tree"
 int edges_to(const Robot& robot, int k) noexcept {
   const Message& m = robot.said(k);
   const bool in_new = k == robot.parent || m.parent == robot.self.id;
@@ -51,6 +54,8 @@ int edges_to(const Robot& robot, int k) noexcept {
   return static_cast<int>(in_new) + static_cast<int>(in_old);
 }
 
+// "f_i(d_i^parent) = 1 if d_i^parent <= S, 0 otherwise. Through this function, a robot can ignore navigation to target
+// and obstacle avoidance to perform emergency maneuvers when the distance to its parent becomes unsafe." (row 3)
 Vec2 f(const Robot& robot, Vec2 p_parent, Vec2 u) noexcept {
   return norm(p_parent) <= robot.params.safe_range ? u : Vec2{};
 }

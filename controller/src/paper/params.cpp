@@ -12,11 +12,12 @@ constexpr double cm = 200.0;
 constexpr double drive_s = 10.0;
 constexpr double round_s = 0.1;
 
-struct ParameterRow {
+// "Table I: Optimized Design Parameters"
+struct Line {
   float Params::*symbol;
   double outwards, inwards, unit;
 };
-constexpr ParameterRow table_1[] = {
+constexpr Line table_1[] = {
     {&Params::safe_range, 138.93, 135.25581, cm},            // S
     {&Params::avoidance_range, 43.16, 40.99, cm},            // A
     {&Params::ideal_distance, 190.0, 154.0841, cm},          // delta
@@ -28,9 +29,9 @@ constexpr ParameterRow table_1[] = {
     {&Params::insertion_distance, 9.79, 6.6395, cm},         // J
 };
 
-constexpr Params column(double ParameterRow::*values) noexcept {
+constexpr Params column(double Line::*values) noexcept {
   Params params;
-  for (const ParameterRow& row : table_1) params.*row.symbol = static_cast<float>(row.*values / row.unit);
+  for (const Line& line : table_1) params.*line.symbol = static_cast<float>(line.*values / line.unit);
   return params;
 }
 
@@ -67,11 +68,11 @@ constexpr Parameter<Params> rows[] = {
 }  // namespace
 
 Params outwards_column() noexcept {
-  static constexpr Params params = column(&ParameterRow::outwards);
+  static constexpr Params params = column(&Line::outwards);
   return params;
 }
 Params inwards_column() noexcept {
-  static constexpr Params params = column(&ParameterRow::inwards);
+  static constexpr Params params = column(&Line::inwards);
   return params;
 }
 

@@ -44,7 +44,7 @@ void follow_grant(Robot& robot) noexcept {
   if (self.grant_ticks > limit_ticks) end_grant(self);
 }
 
-// Of the spares that ask for my edge the one nearest to its midpoint.
+// "accepted to join an edge": of the spares that ask for mine the one nearest to its midpoint.
 RobotId best_request(const Robot& robot) noexcept {
   const Vec2 midpoint = robot.position(robot.parent) * 0.5F;
   return robot.id(robot.least([&](int k) {
@@ -53,6 +53,8 @@ RobotId best_request(const Robot& robot) noexcept {
   }));
 }
 
+// "In the NEED state, each robot continuously checks if it is in an edge selected by a spare robot, or if their parent
+// is in the AWAIT state. If one of these conditions is fulfilled, the robot transitions to the AWAIT state."
 void own_edge(Robot& robot) noexcept {
   State& self = robot.self;
   if (self.grant != nobody) follow_grant(robot);
@@ -116,6 +118,7 @@ RobotId nearest_reference(const Robot& robot) noexcept {
   }));
 }
 
+// "They transition to the EXTEND EDGE state or the ADJUST POSITION state after performing a search for edges in need"
 void look_for_edge(Robot& robot) noexcept {
   State& self = robot.self;
   self.reference = robot.reading.keeps_links && robot.hold < 0 ? nobody : nearest_reference(robot);

@@ -60,6 +60,7 @@ std::uint16_t label_below(std::uint16_t label, float range) noexcept {
   return static_cast<std::uint16_t>(std::min<std::uint32_t>(label + edge, largest_label));
 }
 
+// "the robots estimate their distance from the root"
 void start_tree(Robot& robot) noexcept {
   State& self = robot.self;
   // A root by hand-over keeps its label until the epoch that it opens.

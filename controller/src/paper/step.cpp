@@ -37,7 +37,7 @@ Output<Message> step(const Growth& growth, const Reading& reading, const Params&
 // What is remembered is carried into the robot's present frame, and the neighbour table is brought up to date.
 void begin_tick(Robot& robot, const Inputs<Heard>& inputs) noexcept {
   State& self = robot.self;
-  Table& table = self.neighbors;
+  Neighborhood& table = self.neighbors;
   const Carry carry = inputs.carry();
   if (self.target_known) self.target = carry.point(self.target);
   if (self.centroid_known) self.centroid = carry.point(self.centroid);

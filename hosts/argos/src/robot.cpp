@@ -7,7 +7,7 @@
 namespace banyan::argos {
 namespace {
 
-constexpr int remembered_steps = 10;               // at 30 % loss, ten packets in a row get lost once in 170,000 times
+constexpr int remembered_steps = 10;  // at 30 % loss, ten packets in a row get lost once in 170,000 times
 
 }  // namespace
 

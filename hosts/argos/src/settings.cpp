@@ -15,9 +15,9 @@ namespace {
 
 // Attributes that are keys of scenarios, without their section.
 constexpr std::string_view scenario_paths[] = {
-    "mission.algorithm",          "mission.reading",       "mission.target_tolerance_m",
-    "mission.link_redundancy",    "radio.range_m",         "radio.line_of_sight",
-    "robot.wheel_limit_m_s",      "robot.wheel_distance_m", "robot.radius_m"};
+    "mission.algorithm",       "mission.reading",        "mission.target_tolerance_m",
+    "mission.link_redundancy", "radio.range_m",          "radio.line_of_sight",
+    "robot.wheel_limit_m_s",   "robot.wheel_distance_m", "robot.radius_m"};
 constexpr std::string_view own_names[] = {"role", "target_m", "light_intensity_m"};
 constexpr std::string_view parts[] = {"spare", "worker", "root"};
 

@@ -82,8 +82,8 @@ TEST(Settings, SayWhatIsWrongAllAtOnce) {
                                      {"radius_m", "-1"},
                                      {"role", "boss"},
                                      {"target_m", "3"}});
-  for (const char* word : {"range_m must be a number", "line_of_sight must be true or false", "reading", "radius_m is -1",
-                           "role", "target_m must be X,Y"})
+  for (const char* word : {"range_m must be a number", "line_of_sight must be true or false", "reading",
+                           "radius_m is -1", "role", "target_m must be X,Y"})
     EXPECT_NE(many.find(word), std::string::npos) << word << " in " << many;
   EXPECT_NE(fault_of({{"algorithm", "outwards"}, {"target_gain", "nan"}}), "");
   EXPECT_NE(fault_of({{"algorithm", "outwards"}, {"target_gain", "1e9"}}).find("target_gain is"), std::string::npos);

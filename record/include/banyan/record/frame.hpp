@@ -28,9 +28,9 @@ struct RobotFrame {
   bool alive = true;
   bool connected = false;  // alive and in the radio component of the newest living root
   Serial epoch = 0;
-  double label_m = -1.0;       // -1: unknown
-  std::int32_t depth = 0;      // root 1; 0: not connected to the root by tree edges
-  std::int32_t parent = -1;    // robot index, -1: nobody; so are the next three
+  double label_m = -1.0;     // -1: unknown
+  std::int32_t depth = 0;    // root 1; 0: not connected to the root by tree edges
+  std::int32_t parent = -1;  // robot index, -1: nobody; so are the next three
   std::int32_t old_parent = -1;
   std::int32_t grant = -1;
   std::int32_t request = -1;

@@ -115,9 +115,9 @@ struct Reading {
   Limit guard_links = none;                                               // row t
   bool keeps_links = false;                                               // row t
   bool renews_labels = false;                                             // row u
-  bool avoids_obstacles = false;                                          // row v
-  Limit guard_obstacles = none;                                           // row v
-  bool filters_positions = false;                                         // row w
+  bool avoids_obstacles = false;                                          // row 13
+  Limit guard_obstacles = none;                                           // row 13
+  bool filters_positions = false;                                         // row 14
 };
 inline constexpr Reading literal{};
 extern const Reading corrected;

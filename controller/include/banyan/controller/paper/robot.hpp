@@ -15,7 +15,7 @@
 namespace banyan::paper {
 
 // The neighbours, and what each of them said last.
-struct Table : Neighbors {
+struct Neighborhood : Neighbors {
   std::array<Message, neighbor_capacity> messages{};
 };
 
@@ -32,7 +32,7 @@ struct State : Message {
   std::uint16_t childless_ticks = 0, offer_ticks = 0, unserved_ticks = 0, grant_ticks = 0;
   std::uint16_t request_ticks = 0, ungranted_ticks = 0;
   Tally tally;  // the algorithm never reads it
-  Table neighbors;
+  Neighborhood neighbors;
 };
 
 struct Growth;   // outwards or inwards
