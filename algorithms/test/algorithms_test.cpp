@@ -127,6 +127,14 @@ TEST(Algorithms, RefuseRobotsThatNoAlgorithmIsMadeFor) {
   }
 }
 
+TEST(Algorithms, TimesThatSlowRobotsCannotCountAreAFault) {
+  banyan::Setup setup;
+  setup.parameters = {{"regroup_after_drives", 30.0}};
+  EXPECT_EQ(convoy().fault(setup), "");
+  setup.platform.tick_s = 0.005F;  // 2,000 rounds per drive
+  EXPECT_TRUE(convoy().fault(setup).starts_with("regroup_after_drives must be at most 25 "));
+}
+
 TEST(Algorithms, DistancesOutOfOrderAreAFault) {
   banyan::Setup setup;
   setup.parameters = {{"safe_range", 0.975}};

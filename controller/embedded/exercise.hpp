@@ -76,10 +76,10 @@ std::uint64_t exercise(Step step, Drive drive, State& state, Message said) noexc
 
 // Room for one robot of any algorithm. A robot's memory is known when it is built.
 union Memory {
+  char nothing = 0;
   ConvoyState convoy;
   paper::State paper;
-  char empty;
-  constexpr Memory() noexcept : empty(0) {}
+  constexpr Memory() noexcept {}
 };
 
 // Every algorithm with every drive, as connector and as worker; names and results go to `report`.

@@ -226,8 +226,8 @@ void retry(ConvoyRobot& robot) noexcept {
     if ((is_tried_again(task) || task.serves == self.shed) && task.holder != nobody &&
         task.age_ticks > robot.params.rounds(unclaimed_drives))
       return put_off(robot, task);
-    const int pause_ticks = robot.params.rounds(first_pause_drives)
-                            << (spares > tried_with ? 1 : int{task.times_put_off});
+    const int doubled = robot.params.rounds(first_pause_drives) << (spares > tried_with ? 1 : int{task.times_put_off});
+    const int pause_ticks = std::min(doubled, UINT16_MAX - 1);  // age_ticks reaches no farther
     if (!settled || !is_put_off(task) || task.unlocated || task.age_ticks <= pause_ticks) continue;
     if (const int robots = least_robots(robot, task); robots < fewest) next = &task, fewest = robots;
   }

@@ -7,8 +7,8 @@
 namespace banyan {
 namespace {
 
-constexpr float wander = 4.0F;           // the random walk, in longest ways of a tick: a course lasts a second or two
-constexpr float explained = 1.25F;       // of that way: what motion explains of an innovation, and odometry's own error
+constexpr float wander = 4.0F;      // the random walk, in longest ways of a tick: a course lasts ten or twenty rounds
+constexpr float explained = 1.25F;  // of that way: what motion explains of an innovation, and odometry's own error
 constexpr float newest = 1.0F / 256.0F;  // weight of an innovation: what counts are the last few hundred
 // Of the walk: a shove in a crowd that odometry does not see is forgotten at once.
 constexpr float noticed = 1.0F / 32.0F;
@@ -62,8 +62,8 @@ void PositionFilter::learn(Vec2 predicted, Vec2 measured, int ticks) noexcept {
   if (!(expected > 0.0F) || !(measured_range > 0.0F)) return;
   range_ms_ += (squared_excess(measured_range - expected, by_motion) - range_ms_) * newest;
   const float lever = std::max(expected, shortest_lever);
-  const float room = cross(predicted, measured) / measured_range;  // at the distance where it was expected
-  bearing_ms_ += (squared_excess(room, by_motion) / (lever * lever) - bearing_ms_) * newest;
+  const float across = cross(predicted, measured) / measured_range;  // at the distance where it was expected
+  bearing_ms_ += (squared_excess(across, by_motion) / (lever * lever) - bearing_ms_) * newest;
 }
 
 }  // namespace banyan

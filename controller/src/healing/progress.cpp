@@ -7,8 +7,7 @@
 namespace banyan {
 namespace {
 
-constexpr int nearer = 6;              // of per_range
-constexpr int patience_hindered = 18;  // times as long: the way round may be long, and the target may drive away
+constexpr int progress_steps = 6;  // of per_range: so much nearer is progress
 
 // How much of a tick at full speed towards the target this velocity is, in eighteenths; back and forth adds to 0.
 // On the way round an obstacle every motion counts as one towards the target.
@@ -47,7 +46,7 @@ void watch_progress(HealingRobot& robot, bool retreats, Vec2 v) noexcept {
     const bool nearer = left_steps < self.progress.least;
     self.progress.least = left_steps;
     if (nearer) return;
-  } else if (left_steps + nearer <= self.progress.least) {
+  } else if (left_steps + progress_steps <= self.progress.least) {
     self.progress = {left_steps, 0};
     return;
   }

@@ -32,13 +32,13 @@ bool may_start_thin(const HealingRobot& robot) noexcept {
 }
 
 bool starts_wide(const HealingRobot& robot) noexcept {
-  constexpr float wide_link = 0.8F;  // of C: it may break in the first seconds
+  constexpr float wide_link = 0.8F;  // of C: it may break in the first rounds
   if (!starts_thin(robot.self) && !may_start_thin(robot)) return false;
   const TreeTable& table = robot.table();
   return table.size() == 0 || table.range(0) > wide_link;
 }
 
-// Not inlined: it is for the first seconds only (and the firmware is smaller).
+// Not inlined: it is for the first rounds only (and the firmware is smaller).
 [[gnu::noinline]] bool awaits_others(const HealingRobot& robot, Vec2& u) noexcept {
   constexpr int end_ticks = 150;      // so long the end of a thin start stays
   constexpr float stretched = 0.72F;  // of C: nearer to a robot that may be beyond this end

@@ -60,7 +60,7 @@ void carry_memory(HealingState& self, const Carry& carry) noexcept {
   self.root_at = carry.point(self.root_at);
   self.lost_child = carry.point(self.lost_child);
   for (Task& task : self.known_tasks()) task.target = carry.point(task.target);
-  if (++self.turn == 0) self.turn = 1U << 15;  // what belongs to the first seconds does not come again
+  if (++self.turn == 0) self.turn = 1U << 15;  // what belongs to the first rounds does not come again
   carry_detour(self.detour, carry);
 }
 

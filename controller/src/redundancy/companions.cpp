@@ -40,9 +40,7 @@ constexpr float costs_way = 0.15F;
 constexpr float costs_hidden = 0.5F;  // of C: what a hidden neighbour weighs against the distance of others
 constexpr float costs_crowd = 0.25F;  // of C: likewise a robot at that place, or an edge through it
 
-float bridged_reach(const ConvoyRobot& robot) noexcept {
-  return may_fold(robot) ? folded_reach(robot.params) : bridged;
-}
+float bridged_reach(const ConvoyRobot& robot) noexcept { return may_fold(robot) ? folded_reach : bridged; }
 
 // Two robots at a and b hear each other without the one at `middle`, whose body stays where it is, even if it dies.
 bool hear_each_other(const ConvoyRobot& robot, Vec2 middle, Vec2 a, Vec2 b, bool travels) noexcept {
@@ -348,7 +346,7 @@ bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept {
   const Vec2 from = table.position(*child);
   const Vec2 to = table.position(robot.parent);
   const Vec2 near = nearest_on_segment(from, to);
-  const float reach = saves ? thrifty(p, p.merge_distance) : folded_reach(p);
+  const float reach = saves ? thrifty(p, p.merge_distance) : folded_reach;
   if (distance(from, to) > reach || norm(near) > aside * p.clearance) return false;
   const Vec2 left = left_of(unit(to - from));
   constexpr float pace = 0.7F;

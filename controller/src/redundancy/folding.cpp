@@ -10,7 +10,6 @@
 namespace banyan {
 namespace {
 
-constexpr float relied_on = 0.96F;    // of C: no longer link counts as a path
 constexpr float taut_below = 0.04F;   // of C: so much shorter than the longest folded edge one begins to draw a parent
 constexpr float taut_width = 0.08F;   // of C: and so much longer it does with all its strength
 constexpr float gives_below = 0.02F;  // of C: the same for the edge to one's own parent,
@@ -19,7 +18,7 @@ constexpr float off_middle = 0.02F;   // of C: a robot that joins may be so much
 constexpr float sideways = 0.5F;      // the pace of a robot that does not hear its grandparent,
 constexpr float slower = 3.0F;        // times slower if that is the next but one: it is hidden more often
 constexpr int unheard_ticks = 3;
-constexpr int search_ticks = 40;        // to one side, then to the other
+constexpr float search_drives = 0.4F;   // to one side, then to the other
 constexpr float pushes_through = 6.0F;  // between a line and the edges beside it: through the line
 
 // I do not hear my grandparent or, with k = 3, its parent, although the edges there are short: somebody stands between
@@ -33,7 +32,7 @@ Vec2 look_past(const ConvoyRobot& robot, Vec2 up) noexcept {
     if (m.parent == nobody || m.need != Need::no_need) return {};
     over = table.find(m.parent);
     if (over >= 0 && table.age(over) <= unheard_ticks) continue;
-    const bool left = (self.phase_ticks / search_ticks + self.id) % 2 == 0;
+    const bool left = (self.phase_ticks / robot.params.rounds(search_drives) + self.id) % 2 == 0;
     const float pace = hop > 1 ? sideways / slower : sideways;
     return left_of(up) * (left ? pace : -pace);
   }
@@ -53,10 +52,8 @@ bool folds(const ConvoyRobot& robot) noexcept {
          robot.self.call_hops >= companion_call;
 }
 
-float folded_reach(const ConvoyParams&) noexcept { return relied_on; }
-
 float folded_edge(const ConvoyParams& params) noexcept {
-  return folded_reach(params) / static_cast<float>(params.link_redundancy);
+  return folded_reach / static_cast<float>(params.link_redundancy);
 }
 
 bool wants_fold(const ConvoyRobot& robot) noexcept {
@@ -69,7 +66,7 @@ bool is_off_middle(const ConvoyRobot& robot, int owner, int parent) noexcept {
   const TreeTable& table = robot.table();
   const ConvoyParams& p = robot.params;
   const float edge = distance(table.position(owner), table.position(parent));
-  if (!may_fold(robot) || is_under_way(table.message(owner)) || edge > folded_reach(p)) return false;
+  if (!may_fold(robot) || is_under_way(table.message(owner)) || edge > folded_reach) return false;
   return std::max(table.range(owner), table.range(parent)) > std::max(0.5F * edge, folded_edge(p)) + off_middle;
 }
 

@@ -67,8 +67,6 @@ constexpr Parameter<TreeParams> of_tree[] = {
 std::span<const Parameter<TreeParams>> tree_parameters() noexcept { return of_tree; }
 
 std::string_view tree_fault(const TreeParams& params) noexcept {
-  if (!(params.reconfiguration_drives * params.rounds_per_drive < 65535.0F))
-    return "reconfiguration_drives (R) must be below 65535 ticks";
   if (!(params.avoidance_range < params.recruitment_distance))
     return "avoidance_range (A) must be below recruitment_distance (E)";
   if (!(params.recruitment_distance < params.safe_range))

@@ -384,6 +384,20 @@ TEST(Retry, ThePauseDoublesUnlessThereAreMoreSparesThanEver) {
   }
 }
 
+// Seven times put off is a pause of 128 times as many rounds, more than slow robots count.
+TEST(Retry, EndsItsPauseHoweverSlowTheRobots) {
+  ConvoyBench bench = with_one_put_off(8);
+  bench.params.rounds_per_drive = 2000.0F;
+  bench.state.tried_with = 8;
+  bench.state.tasks[3].times_put_off = most_put_off;
+  bench.state.tasks[3].age_ticks = UINT16_MAX - 1;
+  run(bench, 2000);
+  EXPECT_FALSE(tries(bench));
+  bench.state.tasks[3].age_ticks = UINT16_MAX;
+  run(bench, 1);
+  EXPECT_TRUE(tries(bench));
+}
+
 TEST(Retry, ItIsPutOffAgainIfNobodySetsOut) {
   ConvoyBench bench = with_one_put_off(7);
   run(bench, 100);

@@ -19,6 +19,11 @@ constexpr Parameter<Params> table[] = {
     {{"edge", "", "C", "longest edge", "", "", 0.1F, 1.0F}, &Params::edge},
 };
 
+constexpr Parameter<Params> times[] = {
+    {{"patience", "", "drives", "waits so long", "", "", 0.0F, 600.0F}, &Params::clearance},
+    {{"silence", "", "rounds", "is not heard for so long", "", "", 0.0F, 60'000.0F}, &Params::edge},
+};
+
 Params on_a_body(float radius) {
   Params params;
   params.body_radius = radius;
@@ -43,6 +48,21 @@ TEST(RangeFault, SaysWhichAndWhatIsAllowed) {
   EXPECT_EQ(algorithm_detail::range_fault(std::array{0.08F, 0.05F}, rows), "edge must be between 0.1 and 1, not 0.05");
   EXPECT_EQ(algorithm_detail::range_fault(std::array{-1.0F, 0.5F}, rows), "clearance must be between 0 and 1, not -1");
   EXPECT_NE(algorithm_detail::range_fault(std::array{0.0F, std::nanf("")}, rows), "");
+}
+
+// A time in drives is more rounds the slower the robots are, and rounds are counted in 16 bits.
+TEST(TimeFault, RefusesWhatTheRobotsCannotCount) {
+  Params params;
+  const auto rows = bind_all(params, times);
+  const auto fault = [&](float rounds_per_drive, float patience) {
+    params.rounds_per_drive = rounds_per_drive;
+    return algorithm_detail::time_fault(std::array{patience, 60'000.0F}, rows, params);
+  };
+  EXPECT_EQ(fault(100.0F, 500.0F), "");
+  EXPECT_NE(fault(100.0F, 501.0F), "");
+  EXPECT_EQ(fault(2000.0F, 25.0F), "");
+  EXPECT_EQ(fault(2000.0F, 26.0F),
+            "patience must be at most 25 for robots so slow, not 26: they count 50000 control periods");
 }
 
 }  // namespace

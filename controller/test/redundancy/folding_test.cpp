@@ -149,6 +149,10 @@ TEST_F(Folding, MovesSidewaysUntilItHearsItsGrandparent) {
   EXPECT_GT(std::abs(first), 0.3F);
   bench.state.phase_ticks = 40;
   EXPECT_LT(motion().y * first, 0.0F);  // then to the other side
+  bench.params.rounds_per_drive = 2000.0F;
+  EXPECT_GT(motion().y * first, 0.0F) << "a slow robot has come nowhere by then";
+  bench.state.phase_ticks = 800;
+  EXPECT_LT(motion().y * first, 0.0F);
   bench.say(2).need = Need::need;
   EXPECT_NEAR(motion().y, 0.0F, 1e-3F) << "it may be too far away";
 }

@@ -25,7 +25,6 @@ TEST(Params, TheOrderOfDistancesIsChecked) {
   EXPECT_TRUE(faulty(&TreeParams::safe_range, 0.975F));
   EXPECT_TRUE(faulty(&TreeParams::ideal_distance, 1.005F));
   EXPECT_FALSE(faulty(&TreeParams::ideal_distance, 1.0F)) << "an edge without margin, but possible";
-  EXPECT_TRUE(faulty(&TreeParams::reconfiguration_drives, 660.0F)) << "more ticks than are counted";
 }
 
 TEST(Params, ThereMayBeParentsAndOneHeirAtATime) {
@@ -36,6 +35,13 @@ TEST(Params, ThereMayBeParentsAndOneHeirAtATime) {
   p = convoy_defaults();
   p.claim_radius = 0.5F;
   EXPECT_TRUE(healing_fault(p).starts_with("claim_radius"));
+  p = convoy_defaults();
+  p.give_up_after_drives = 30.0F;
+  EXPECT_EQ(healing_fault(p), "") << "18 x 30 x 100 are 54,000 rounds";
+  p.rounds_per_drive = 2000.0F;
+  EXPECT_TRUE(healing_fault(p).starts_with("give_up_after_drives"));
+  p.give_up_after_drives = convoy_defaults().give_up_after_drives;
+  EXPECT_EQ(healing_fault(p), "");
 }
 
 }  // namespace

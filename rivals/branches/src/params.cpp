@@ -41,8 +41,6 @@ std::string_view fault(const Params& params) noexcept {
   if (!(params.joining < params.separation)) return "joining_distance must be below separation_distance";
   if (!(params.separation < params.longest_link)) return "separation_distance must be below longest_link";
   if (!(params.spacing < params.longest_link)) return "connector_spacing must be below longest_link";
-  if (!(params.join_patience_drives * params.rounds_per_drive < 65535.0F))
-    return "join_patience_drives must be below 65535 rounds";
   return {};
 }
 

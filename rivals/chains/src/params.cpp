@@ -40,8 +40,6 @@ std::span<const Parameter<Params>> parameters() noexcept { return of_chains; }
 std::string_view fault(const Params& params) noexcept {
   if (!(params.safe_distance < params.critical_distance)) return "safe_distance must be below critical_distance";
   if (!(params.critical_distance < params.longest_link)) return "critical_distance must be below longest_link";
-  if (!(params.gap_patience_drives * params.rounds_per_drive < 65535.0F))
-    return "gap_patience_drives must be below 65535 rounds";
   return {};
 }
 

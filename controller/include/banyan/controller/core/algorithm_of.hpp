@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <memory>
 #include <span>
 #include <string>
@@ -87,6 +88,20 @@ inline std::string range_fault(std::span<const float> values, std::span<const Bo
   return {};
 }
 
+// Robots count rounds in 16 bits, and some times are sums.
+inline constexpr float most_counted_rounds = 50'000.0F;
+
+// The first time that these robots cannot count, in words.
+inline std::string time_fault(std::span<const float> values, std::span<const BoundParameter> rows,
+                              const Machine& machine) {
+  const float most = std::round(10.0F * most_counted_rounds / machine.rounds_per_drive) / 10.0F;  // as it is read
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (rows[k].info->unit == "drives" && !(values[k] <= most))
+      return std::string(rows[k].info->key) + " must be at most " + plain(most) + " for robots so slow, not " +
+             plain(values[k]) + ": they count " + plain(most_counted_rounds) + " control periods";
+  return {};
+}
+
 }  // namespace algorithm_detail
 
 template <class A> class AlgorithmOf : public Algorithm {
@@ -114,6 +129,7 @@ template <class A> class AlgorithmOf : public Algorithm {
     const auto bound = of_.bind(params);
     const auto values = algorithm_detail::values_of(setup, bound);
     std::string text = algorithm_detail::range_fault(values, bound);
+    if (text.empty()) text = algorithm_detail::time_fault(values, bound, params);
     if (!text.empty()) return text;
     algorithm_detail::resolve(values, bound, params);
     return std::string(of_.fault(params));

@@ -65,8 +65,8 @@ class Neighbors {
   // there is none.
   [[nodiscard]] RobotId next_heard(RobotId id, int ticks) const noexcept;
   [[nodiscard]] RobotId id(int k) const noexcept { return ids_[k]; }
-  [[nodiscard]] Vec2 position(int k) const noexcept { return positions_[k]; }  // m, body frame
-  // m; where ranges are noisy, one standard deviation more than the distance of position(k): it may be that far away.
+  [[nodiscard]] Vec2 position(int k) const noexcept { return positions_[k]; }  // C, body frame
+  // C; where ranges are noisy, one standard deviation more than the distance of position(k): it may be that far away.
   [[nodiscard]] float range(int k) const noexcept { return ranges_[k]; }
   [[nodiscard]] const PositionFilter& filter() const noexcept { return filter_; }
   [[nodiscard]] float spread() const noexcept { return filter_.spread(); }

@@ -67,8 +67,7 @@ inline constexpr float farthest_target = 200.0F;  // C, from where the swarm sta
   const float rounds = machine.rounds_per_drive;
   if (!(rounds >= least_rounds_per_drive * (1.0F - rounding) && rounds <= most_rounds_per_drive * (1.0F + rounding)))
     return "the radio range C divided by the wheels' limit must be 25 to 2,000 control periods: neighbours would be "
-           "gone "
-           "before they are heard twice, or get nowhere";
+           "gone before they are heard twice, or get nowhere";
   const float radius = machine.body_radius;
   if (!(radius >= least_body_radius * (1.0F - rounding) && radius <= most_body_radius * (1.0F + rounding)))
     return "the body's radius must be 0.001 to 0.17 of the radio range C: larger bodies block each other's way";

@@ -19,7 +19,7 @@ class PositionFilter {
   [[nodiscard]] Vec2 fuse(Vec2 predicted, Vec2 measured, int ticks, int measurements) const noexcept;
   // From a neighbour that was heard at the last step, too.
   void learn(Vec2 predicted, Vec2 measured, int ticks) noexcept;
-  // One standard deviation of a filtered range, m; 0: not noticeable.
+  // One standard deviation of a filtered range, C; 0: not noticeable.
   [[nodiscard]] float spread() const noexcept { return spread_; }
   [[nodiscard]] bool has_seen_noise() const noexcept { return range_ms_ > 0.0F || bearing_ms_ > 0.0F; }
 
@@ -27,7 +27,7 @@ class PositionFilter {
 
  private:
   // Mean squares of the innovations, as far as no motion explains them
-  float range_ms_ = 0.0F;    // m^2
+  float range_ms_ = 0.0F;    // C^2
   float bearing_ms_ = 0.0F;  // rad^2
   // In this step
   float way_ = 0.0F;

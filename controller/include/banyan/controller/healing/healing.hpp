@@ -51,13 +51,13 @@ template <class Counts> [[nodiscard]] std::uint8_t live_call_hops(const TreeTabl
 void note_start(HealingRobot& robot) noexcept;
 // Until that is noted I keep those that have fallen silent.
 [[nodiscard]] bool may_start_thin(const HealingRobot& robot) noexcept;
-// The first of their links is near C. For the first seconds nobody moves.
+// The first of their links is near C. For the first rounds nobody moves.
 [[nodiscard]] bool starts_wide(const HealingRobot& robot) noexcept;
 // Where packets get lost, another part of the network may hear me that I have not heard yet. So I stay as long as I
-// have heard of no root, and where links are near C for the first seconds; at the end of such a start longer, or I go
+// have heard of no root, and where links are near C for the first rounds; at the end of such a start longer, or I go
 // towards whoever may be there, by motion `u`.
 [[nodiscard]] bool awaits_others(const HealingRobot& robot, Vec2& u) noexcept;
-// In the first seconds of such a start a silence is rather a burst than a death.
+// In the first rounds of such a start a silence is rather a burst than a death.
 [[nodiscard]] inline bool starts_thin(const HealingState& self) noexcept {
   constexpr int start_ticks = 50;
   return self.neighbors_at_start > 0 && self.turn < start_ticks;
@@ -170,7 +170,7 @@ void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept;
 // Towards where the root was, in units of speed_gain.
 [[nodiscard]] Vec2 retreat_motion(const HealingRobot& robot, bool regroups, bool workers_relay) noexcept;
 
-// How far this robot has to drive for a reason of its own, m: to where the last robot below it was.
+// How far this robot has to drive for a reason of its own, C: to where the last robot below it was.
 [[nodiscard]] inline float own_want(const HealingRobot& robot) noexcept {
   return robot.carries_on ? norm(robot.self.lost_child) : 0.0F;
 }

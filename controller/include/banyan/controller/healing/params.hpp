@@ -22,9 +22,14 @@ struct HealingParams : TreeParams {
   [[nodiscard]] bool heals() const noexcept { return healing > 0.5F; }
 };
 
+// Near obstacles a worker gives up after so many times give_up_after_drives: the way round may be long, and the target
+// may drive away.
+inline constexpr int patience_hindered = 18;
+
 [[nodiscard]] std::span<const Parameter<HealingParams>> healing_parameters() noexcept;
 
-// Besides tree_fault(): there may be parents, and robots that may become root hear each other.
+// Besides tree_fault(): there may be parents, robots that may become root hear each other, and what a worker drives in
+// vain near obstacles can be counted in 16 bits.
 [[nodiscard]] std::string_view healing_fault(const HealingParams& params) noexcept;
 
 }  // namespace banyan

@@ -19,7 +19,7 @@ struct Task {
   RobotId holder = nobody;      // the robot that serves it; nobody: it has been given up
   Serial beat = 0;              // the holder's count of ticks, the newest heard of
   std::uint16_t age_ticks = 0;  // since it grew; in doubt: since I know that it is, and before
-  Vec2 target;                  // m, own frame
+  Vec2 target;                  // C, own frame
   RobotId via = nobody;         // the child by which its holder is below me in the tree; nobody: it is not
   bool silent : 1 = false;     // in doubt: the robots that heard the holder last no longer hear it. Without holder: put
                                // off, since robots are too few, until the root has it tried again
@@ -43,15 +43,14 @@ inline constexpr std::uint16_t first_gap = 200;  // sixteenths of ticks: taken f
 
 // The progress of a worker (progress.cpp).
 struct Progress {
-  std::uint16_t least =
-      UINT16_MAX;  // the nearest that it has come to its target, in C / 256, since something was in the way
-  std::uint16_t vain_ticks = 0;  // eighteenths of ticks at full speed towards it since, in vain
+  std::uint16_t least = UINT16_MAX;  // C / 256, the nearest to its target since something was in the way
+  std::uint16_t vain_ticks = 0;      // eighteenths of ticks at full speed towards it since, in vain
 };
 
 // Stands before the tree's part: behind the neighbour table, each access would take a chip a further instruction.
 struct HealingMemory {
   std::uint8_t task_count = 0;
-  std::uint8_t neighbors_at_start = 0;  // so few after a second, all of them far away; 0: it is no thin start
+  std::uint8_t neighbors_at_start = 0;  // so few after the first rounds, all of them far away; 0: it is no thin start
   bool was_sent : 1 = false;            // to a target, at the last step
   bool root_known : 1 = false;
   bool calls : 1 = false;              // asks its neighbours to come nearer
@@ -79,8 +78,8 @@ struct HealingMemory {
   std::uint8_t called_ticks = 0;     // for how long I still do so
   std::uint16_t dangling_ticks = 0;  // the last robot below me has died: how long I still drive to where it was
   Progress progress;
-  Vec2 root_at;     // m, own frame: where that root is or was; the root: where it last heard one
-  Vec2 lost_child;  // m, own frame: where it was
+  Vec2 root_at;     // C, own frame: where that root is or was; the root: where it last heard one
+  Vec2 lost_child;  // C, own frame: where it was
   std::array<Task, task_capacity> tasks{};                             // the first task_count are valid
   Detour detour;                                                       // obstacles: the way round one
   std::array<HealingStanding, neighbor_capacity> healing_standings{};  // beside the neighbour table

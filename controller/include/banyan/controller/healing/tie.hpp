@@ -30,7 +30,7 @@ inline constexpr int longest_silence_ticks = 100;  // for so long they are remem
 // packets get lost: it knows no better where I am, and may have driven.
 [[nodiscard]] float strayed_way(const HealingRobot& robot, int k) noexcept;
 
-// Where packets get lost many in a row, some neighbours have not been heard yet in the first seconds: nobody leaves
+// Where packets get lost many in a row, some neighbours have not been heard yet in the first rounds: nobody leaves
 // them.
 [[nodiscard]] inline bool awaits_the_unheard(const HealingRobot& robot) noexcept {
   return robot.has_bursts() && robot.self.turn < longest_silence_ticks;

@@ -46,7 +46,7 @@ struct KnownBodies {
 struct Corners {
   Landmarks landmarks;
   KnownBodies bodies;
-  Vec2 seen_from;       // m, own frame: where I was when I last heard my parent; a spare: where the tree was
+  Vec2 seen_from;       // C, own frame: where I was when I last heard my parent; a spare: where the tree was
   bool pinned = false;  // a corner is about to cut the edge to my parent
   std::array<CornerStanding, neighbor_capacity> standings{};  // beside the neighbour table
 

@@ -18,12 +18,12 @@ struct PowerState {
   bool seeks = false;                // a spare that is to be charged
   bool ready = false;                // enough charge to join an edge
   bool travels = false;              // and on its way
-  Vec2 way;                          // m, own frame: where the robot was that is to lead me to a charging place
+  Vec2 way;                          // C, own frame: where the robot was that is to lead me to a charging place
   RobotId way_id = nobody;           // that robot, nobody: none
   std::uint8_t way_hops = no_place;  // in half hops
   std::uint16_t way_ticks = 0;       // since I chose it
   std::uint16_t stuck_ticks = 0;     // since a relief that I am part of has begun
-  Vec2 unseen;  // m, own frame: a child that the robot I relieve hides from me is in this direction from it
+  Vec2 unseen;  // C, own frame: a child that the robot I relieve hides from me is in this direction from it
   std::uint16_t unseen_ticks = 0;  // since I have assumed it there; 0: I hear all of its children
   std::array<PowerStanding, neighbor_capacity> standings{};  // beside the neighbour table
 };

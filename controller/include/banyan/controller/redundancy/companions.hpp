@@ -50,7 +50,7 @@ void keep_company(ConvoyRobot& robot) noexcept;
 // second path the child then needs no companion, with thrift it releases me.
 [[nodiscard]] bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept;
 
-// How near a companion comes to the edges of others, m.
+// How near a companion comes to the edges of others, C.
 [[nodiscard]] float companion_width(const ConvoyRobot& robot, int of) noexcept;
 
 // How a companion moves, in units of speed_gain: to the place beside its robot from which it hears that robot's tree

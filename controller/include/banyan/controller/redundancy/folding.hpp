@@ -26,11 +26,11 @@ inline constexpr float folds_from = 0.3F;
   return m.want >= from;
 }
 
-// The longest edge of a branch that has folded, m.
+// The longest edge of a branch that has folded, C.
 [[nodiscard]] float folded_edge(const ConvoyParams& params) noexcept;
 
-// The longest link that a branch that has folded relies on, m.
-[[nodiscard]] float folded_reach(const ConvoyParams& params) noexcept;
+// The longest link that a branch that has folded relies on, C.
+inline constexpr float folded_reach = 0.96F;
 
 // My edge to my parent (there must be one) is too long or hidden. A worker's does not count before it has arrived: its
 // companion would come between it and its parent.

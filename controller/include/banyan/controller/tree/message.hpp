@@ -24,8 +24,8 @@ constexpr bool newer(RootToken a, RootToken b) noexcept {
 }
 
 inline constexpr std::uint16_t unknown_label = 0xFFFF;
-inline constexpr std::uint16_t largest_label =
-    unknown_label - 1;  // nothing fits behind it: such a robot takes no child
+// Nothing fits behind it: such a robot takes no child.
+inline constexpr std::uint16_t largest_label = unknown_label - 1;
 inline constexpr std::uint16_t invalid_depth = 0;
 inline constexpr std::uint8_t unreachable = 0xFF;
 inline constexpr std::uint8_t nobody_calls = 0xFF;
@@ -140,7 +140,7 @@ template <class Visitor, class M> constexpr void visit_tree_block(Visitor& visit
   visit.coordinate(
       "centroid_x",
       "with the offer: centroid relative to that robot, along the edge to it; with none: the longest burst of "
-      "loss known, ticks",
+      "loss known, ticks / 256",
       m.centroid_x);
   visit.coordinate("centroid_y", "the same, to the left of that edge", m.centroid_y);
 }

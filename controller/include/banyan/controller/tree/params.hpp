@@ -41,7 +41,7 @@ struct TreeParams : Machine {
 [[nodiscard]] std::span<const Parameter<TreeParams>> tree_parameters() noexcept;
 
 // The first fault among the values that depend on each other, in words; nothing if there is none:
-// A < E < S < delta <= C (protocol 2, row 1; delta = C leaves an edge no margin), R below 65,535 ticks.
+// A < E < S < delta <= C (protocol 2, row 1; delta = C leaves an edge no margin).
 [[nodiscard]] std::string_view tree_fault(const TreeParams& params) noexcept;
 
 }  // namespace banyan

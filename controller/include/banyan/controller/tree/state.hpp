@@ -15,7 +15,7 @@ struct TreeState {
   RobotId id = nobody;
   bool is_worker = false;
   Role role = Role::spare;
-  Vec2 target;  // m, own frame: where I was sent to, carried along while it is not sensed
+  Vec2 target;  // C, own frame: where I was sent to, carried along while it is not sensed
   bool target_known = false;
 
   // Epoch, phase, root token: gossip (epoch.hpp)
@@ -50,14 +50,14 @@ struct TreeState {
   RobotCount subtree = 1;
   RobotCount subtree_workers = 0;
   RobotCount count = 0;             // Alg. 2
-  Vec2 q;                           // m, own frame; at the root Alg. 1's centroid
+  Vec2 q;                           // C, own frame; at the root Alg. 1's centroid
   float want = 0.0F;                // largest remaining worker distance below me
   Vec2 pull;                        // target pull, own frame
   float least_want = 0.0F;          // the least want since it last grew
   std::uint16_t stalled_ticks = 0;  // since want last changed by a twentieth of C
 
   // Root selection (root_selection.hpp)
-  Vec2 centroid;  // m, own frame
+  Vec2 centroid;  // C, own frame
   bool centroid_known = false;
   RobotId new_root = nobody;  // offered to
   std::uint16_t offer_ticks = 0;

@@ -14,7 +14,7 @@ struct Link {
   std::uint16_t unanswered_ticks = 0;  // for how long the other end has not named me
   std::uint16_t loop_ticks = 0;        // for how long it has led neither end to the root
   bool connector = false;              // the other end is one
-  Vec2 at;                             // where that is; m, own frame
+  Vec2 at;                             // where that is; C, own frame
 };
 
 class Links {
@@ -76,7 +76,7 @@ struct State : KnownRoot {
   std::uint16_t cut_ticks = 65535;  // for how long it has not been joined
   RobotId lost = nobody;            // a robot that fell silent while it was linked with it
   RobotId lost_root = nobody;       // that led to this root, if it was the parent
-  Vec2 lost_at;                     // m, own frame: where it was
+  Vec2 lost_at;                     // C, own frame: where it was
   std::uint16_t lost_ticks = 0;     // since then
   RobotId team = nobody;
   std::uint8_t team_age = unknown_age;
