@@ -76,10 +76,9 @@ std::uint64_t exercise(Step step, Drive drive, State& state, Message said) noexc
 
 // Room for one robot of any algorithm. A robot's memory is known when it is built.
 union Memory {
+  constexpr Memory() noexcept : convoy{} {}
   ConvoyState convoy;
   paper::State paper;
-  Memory() noexcept {}   // nothing lives in it yet
-  ~Memory() noexcept {}  // the states are trivial
 };
 
 // Every algorithm with every drive, as connector and as worker; names and results go to `report`.

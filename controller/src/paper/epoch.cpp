@@ -53,8 +53,8 @@ void enter(Robot& robot, Serial epoch, Phase phase) noexcept {
   if (phase >= Phase::grow_tree && !hangs_on_it) robot.set_old_parent(nobody);
 }
 
-// "Init -> Start Tree -> Select Parent -> parent selected? -> Grow Tree -> growth done? -> Select Root -> root selected?"
-// (Fig. 1), of which the root decides the diamonds
+// "Init -> Start Tree -> Select Parent -> parent selected? -> Grow Tree -> growth done? -> Select Root -> root
+// selected?" (Fig. 1), of which the root decides the diamonds
 void advance(Robot& robot) noexcept {
   constexpr int settle_ticks = 3;      // a barrier holds, and SELECT PARENT lasts, at least so long
   constexpr int patience_ticks = 100;  // with motion and occlusion a count may never be reached (row 7)

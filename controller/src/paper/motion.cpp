@@ -54,8 +54,8 @@ int edges_to(const Robot& robot, int k) noexcept {
   return static_cast<int>(in_new) + static_cast<int>(in_old);
 }
 
-// "f_i(d_i^parent) = 1 if d_i^parent <= S, 0 otherwise. Through this function, a robot can ignore navigation to target and
-// obstacle avoidance to perform emergency maneuvers when the distance to its parent becomes unsafe." (row 3)
+// "f_i(d_i^parent) = 1 if d_i^parent <= S, 0 otherwise. Through this function, a robot can ignore navigation to target
+// and obstacle avoidance to perform emergency maneuvers when the distance to its parent becomes unsafe." (row 3)
 Vec2 f(const Robot& robot, Vec2 p_parent, Vec2 u) noexcept {
   return norm(p_parent) <= robot.params.safe_range ? u : Vec2{};
 }

@@ -10,8 +10,8 @@
 namespace banyan::paper {
 namespace {
 
-// "compares its position and the position of its neighbors to the centroid estimate": closer by a margin, so that the token does not go to and fro; no worker. The two will
-// have an edge (row t), so it must not be about to leave.
+// "compares its position and the position of its neighbors to the centroid estimate": closer by a margin, so that the
+// token does not go to and fro; no worker. The two will have an edge (row t), so it must not be about to leave.
 int closest_to_centroid(const Robot& robot) noexcept {
   constexpr float margin = 0.025F;  // C
   const float reach = robot.reading.keeps_links ? 0.95F : 1.0F;
@@ -26,8 +26,8 @@ int closest_to_centroid(const Robot& robot) noexcept {
 
 }  // namespace
 
-// "sends an acknowledgement message to the old root, and then it expresses the centroid in its own reference frame": the
-// new root's side. That all robots hear of its token is the acknowledgement.
+// "sends an acknowledgement message to the old root, and then it expresses the centroid in its own reference frame":
+// the new root's side. That all robots hear of its token is the acknowledgement.
 void accept_offer(Robot& robot) noexcept {
   State& self = robot.self;
   for (int k = 0; k < robot.size(); ++k) {

@@ -53,8 +53,8 @@ RobotId best_request(const Robot& robot) noexcept {
   }));
 }
 
-// "In the NEED state, each robot continuously checks if it is in an edge selected by a spare robot, or if their parent is
-// in the AWAIT state. If one of these conditions is fulfilled, the robot transitions to the AWAIT state."
+// "In the NEED state, each robot continuously checks if it is in an edge selected by a spare robot, or if their parent
+// is in the AWAIT state. If one of these conditions is fulfilled, the robot transitions to the AWAIT state."
 void own_edge(Robot& robot) noexcept {
   State& self = robot.self;
   if (self.grant != nobody) follow_grant(robot);

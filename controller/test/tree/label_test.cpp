@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench.hpp"
 #include "banyan/controller/tree/parent_selection.hpp"
+#include "bench.hpp"
 
 namespace banyan {
 namespace {

@@ -54,7 +54,9 @@ struct Robot {
   [[nodiscard]] int size() const noexcept { return self.neighbors.size(); }
   [[nodiscard]] int find(RobotId id) const noexcept { return self.neighbors.find(id); }
   [[nodiscard]] RobotId id(int k) const noexcept { return k < 0 ? nobody : self.neighbors.id(k); }
-  [[nodiscard]] const Message& said(int k) const noexcept { return self.neighbors.messages[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] const Message& said(int k) const noexcept {
+    return self.neighbors.messages[static_cast<std::size_t>(k)];
+  }
   [[nodiscard]] Vec2 position(int k) const noexcept { return self.neighbors.position(k); }
   [[nodiscard]] float range(int k) const noexcept { return self.neighbors.range(k); }
   [[nodiscard]] bool alive(int k) const noexcept { return k >= 0 && self.neighbors.alive(k); }
