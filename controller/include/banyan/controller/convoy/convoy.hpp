@@ -18,7 +18,7 @@ namespace banyan {
 
 [[nodiscard]] ConvoyState initial_convoy_state(RobotId id, bool worker, bool root) noexcept;
 
-// One tick of one robot, as outwards_step() (outwards.hpp).
+// One tick of one robot.
 [[nodiscard]] Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state,
                                                 const Inputs<Heard>& inputs) noexcept;
 
