@@ -25,15 +25,15 @@ struct Scale {
   [[nodiscard]] Vec2 place(Vec2 m) const { return {metres(m.x), metres(m.y)}; }
 };
 
-constexpr std::size_t robots = 10;
+constexpr std::size_t swarm_size = 10;
 constexpr int ticks = 400;
 
 // What the robots of one tick sense, in the metres and seconds of the first swarm.
 struct Script {
-  std::array<std::vector<Packet>, robots> packets;
-  std::array<std::vector<Vec2>, robots> obstacles;
-  std::array<Senses, robots> senses;
-  std::array<bool, robots> steps;
+  std::array<std::vector<Packet>, swarm_size> packets;
+  std::array<std::vector<Vec2>, swarm_size> obstacles;
+  std::array<Senses, swarm_size> senses;
+  std::array<bool, swarm_size> steps;
 };
 
 // A swarm of an algorithm in a world of some scale.
@@ -47,12 +47,13 @@ class Scaled {
     setup.arrival_distance_m = std::ldexp(setup.arrival_distance_m, scale.length);
     EXPECT_EQ(algorithm.fault(setup), "");
     std::vector<Member> members;
-    for (std::size_t i = 0; i < robots; ++i) members.push_back({static_cast<RobotId>(i), i + 2 >= robots, i == 0});
+    for (std::size_t i = 0; i < swarm_size; ++i)
+      members.push_back({static_cast<RobotId>(i), i + 2 >= swarm_size, i == 0});
     swarm_ = algorithm.make(setup, members);
   }
   void tick(Script script) {
-    std::array<Sensed, robots> sensed;
-    for (std::size_t i = 0; i < robots; ++i) {
+    std::array<Sensed, swarm_size> sensed;
+    for (std::size_t i = 0; i < swarm_size; ++i) {
       for (Packet& packet : script.packets[i]) {
         packet.position = scale_.place(packet.position);
         packet.age_s = scale_.seconds(packet.age_s);
@@ -85,8 +86,8 @@ class Scaled {
  private:
   Scale scale_;
   std::unique_ptr<Swarm> swarm_;
-  std::array<Velocity, robots> commands_{};
-  std::array<Report, robots> reports_{};
+  std::array<Velocity, swarm_size> commands_{};
+  std::array<Report, swarm_size> reports_{};
 };
 
 // Robots that drive as they want to, among pillars, with noise in all that they sense, packets that are late or lost,
@@ -94,7 +95,7 @@ class Scaled {
 class Course {
  public:
   Course(const Platform& platform, std::uint64_t seed) : platform_(platform), state_(seed * 2'654'435'761U + 1) {
-    for (std::size_t i = 0; i < robots; ++i) {
+    for (std::size_t i = 0; i < swarm_size; ++i) {
       const auto column = static_cast<float>(i % 4), row = static_cast<float>(i / 4);
       at_[i] = Vec2{0.4F * column + draw(0.1F), 0.45F * row + draw(0.1F)} * platform.communication_range_m;
       facing_[i] = unit_vector(draw(3.0F));
@@ -102,10 +103,10 @@ class Course {
   }
   Script sense(int tick) {
     Script script;
-    for (std::size_t i = 0; i < robots; ++i) {
+    for (std::size_t i = 0; i < swarm_size; ++i) {
       script.steps[i] = draw(1.0F) > -0.9F;
       ++waited_[i];
-      for (std::size_t j = 0; j < robots; ++j) {
+      for (std::size_t j = 0; j < swarm_size; ++j) {
         if (i == j || distance(at_[i], at_[j]) > platform_.communication_range_m || draw(1.0F) < -0.8F) continue;
         const bool measured_before = draw(1.0F) > 0.8F;
         script.packets[i].push_back({.sender = static_cast<std::uint32_t>(j),
@@ -122,12 +123,12 @@ class Course {
       Senses& senses = script.senses[i];
       const Vec2 way = rotate_back(facing_before_[i], driven_[i]);
       senses.odometry = {way.x * (1.0F + draw(0.02F)), way.y, turned_[i]};
-      if (i + 2 >= robots) {
-        const Vec2 target = (i + 1 == robots) != (tick > ticks / 2) ? Vec2{2.6F, 0.5F} : Vec2{-0.5F, 2.3F};
+      if (i + 2 >= swarm_size) {
+        const Vec2 target = (i + 1 == swarm_size) != (tick > ticks / 2) ? Vec2{2.6F, 0.5F} : Vec2{-0.5F, 2.3F};
         senses.orders.sent = true;
         if (draw(1.0F) > -0.8F) senses.orders.target = seen(i, target * platform_.communication_range_m);
       }
-      if (tick == 300) senses.orders.given_up = static_cast<RobotId>(robots - 1);
+      if (tick == 300) senses.orders.given_up = static_cast<RobotId>(swarm_size - 1);
       if (platform_.battery) senses.charge = Charge{1.0F - 0.002F * static_cast<float>(tick), false};
       if (waited_[i] > 1) senses.elapsed_s = static_cast<float>(waited_[i]) * platform_.tick_s;
       if (!script.steps[i]) continue;
@@ -159,13 +160,13 @@ class Course {
 
   Platform platform_;
   std::uint64_t state_;
-  std::array<Vec2, robots> at_, facing_, driven_{}, facing_before_ = filled({1.0F, 0.0F});
-  std::array<float, robots> turned_{};
-  std::array<int, robots> waited_{};
+  std::array<Vec2, swarm_size> at_, facing_, driven_{}, facing_before_ = filled({1.0F, 0.0F});
+  std::array<float, swarm_size> turned_{};
+  std::array<int, swarm_size> waited_{};
   float total_ = 0.0F;
 
-  static std::array<Vec2, robots> filled(Vec2 v) {
-    std::array<Vec2, robots> all;
+  static std::array<Vec2, swarm_size> filled(Vec2 v) {
+    std::array<Vec2, swarm_size> all;
     all.fill(v);
     return all;
   }
@@ -198,7 +199,7 @@ TEST_P(Scaling, ByAPowerOfTwoChangesNothingButTheUnits) {
       first.tick(script);
       for (Scaled& other : others) {
         other.tick(script);
-        for (std::size_t i = 0; i < robots; ++i) {
+        for (std::size_t i = 0; i < swarm_size; ++i) {
           const Scale& by = other.scale();
           const Velocity &v = first.command(i), &w = other.command(i);
           ASSERT_TRUE(w.forward_m_s == by.speed(v.forward_m_s) && w.sideways_m_s == by.speed(v.sideways_m_s) &&
@@ -208,7 +209,7 @@ TEST_P(Scaling, ByAPowerOfTwoChangesNothingButTheUnits) {
               << ", seed " << seed;
         }
       }
-      for (std::size_t i = 0; i < robots; ++i) world.move(i, first.command(i));
+      for (std::size_t i = 0; i < swarm_size; ++i) world.move(i, first.command(i));
     }
     EXPECT_GT(world.driven(), setup.platform.communication_range_m) << "the test says nothing";
   }

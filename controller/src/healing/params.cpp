@@ -5,7 +5,7 @@ namespace banyan {
 namespace {
 
 constexpr Parameter<HealingParams> of_healing[] = {
-    {{"healing", "", "", "1: living robots take the place of dead ones (corrected); 0: they do not",
+    {{"healing", "", "", "1: living robots take the place of dead ones; 0: they do not",
       "0 to see what the algorithm does alone.", "protocol 12", 0.0F, 1.0F},
      &HealingParams::healing},
     {{"claim_radius", "", "C", "healing: a robot this near to where the root fell silent may become root",

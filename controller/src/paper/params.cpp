@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// "Optimized Design Parameters" (paper Table I).
+// The parameters and their defaults.
 #include "banyan/controller/paper/params.hpp"
 
 #include "banyan/controller/core/speed_parameter.hpp"
@@ -12,7 +12,7 @@ constexpr double cm = 200.0;
 constexpr double drive_s = 10.0;
 constexpr double round_s = 0.1;
 
-// "Table I: Optimized Design Parameters"
+// "Optimized Design Parameters" (paper Table I), as printed.
 struct Line {
   float Params::*symbol;
   double outwards, inwards, unit;

@@ -135,7 +135,6 @@ class Spacing {
   const Robot& robot_;
   const State& self_;
   const Table<Message>& table_;
-  float per_range_;
 };
 
 }  // namespace
