@@ -64,6 +64,18 @@ TEST_F(Program, ASummaryTellsOfDeathsAndRecovery) {
   EXPECT_FALSE(has(small.out, "elected")) << small.out;
 }
 
+// With radios of 10 cm to 1 km, and no parameters of their own.
+TEST_F(Program, AnyRobotCompletesWithoutASplit) {
+  for (const auto& [scenario, most] :
+       {std::pair{"kilobots", 2.0}, {"turtlebots", 1.25}, {"rovers", 1.25}, {"relay-drones", 1.25}}) {
+    ASSERT_EQ(run({"run", std::string(BANYAN_SCENARIOS) + "/" + scenario + ".toml", "--out", scenario}).code, 0);
+    const auto result = read_json(std::string(scenario) + "/run.json")["result"];
+    EXPECT_EQ(result["complete"], true) << scenario;
+    EXPECT_EQ(result["split_ticks"], 0) << scenario;
+    EXPECT_LE(result["time_ratio"].get<double>(), most) << scenario;
+  }
+}
+
 TEST_F(Program, TheTableAndTheJsonHoldTheSame) {
   ASSERT_EQ(run({"run", "small.toml", "--out", "o"}).code, 0);
 

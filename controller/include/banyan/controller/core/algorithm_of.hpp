@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <cstdio>
 #include <cmath>
 #include <memory>
 #include <span>
@@ -73,8 +73,8 @@ inline void resolve(std::span<const float> values, std::span<const BoundParamete
 // A number as a user would write it.
 inline std::string plain(float number) {
   std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
-  return {text.data(), end};
+  std::snprintf(text.data(), text.size(), "%g", static_cast<double>(number));
+  return text.data();
 }
 
 // The first value out of its range, in words.
