@@ -29,7 +29,6 @@ constexpr double smallest_robot_px = 3.4;   // radius; smaller ones could not be
 constexpr double smallest_spare_px = 2.2;   // of hundreds, which must not hide the tree
 constexpr Vec2 zoom_one_px{1280.0, 720.0};  // a picture of given size whose text is as large as elsewhere;
 constexpr double smallest_zoom = 0.7;       // it goes with the picture, down to what can be read
-constexpr double smallest_view_m = 2.0;
 constexpr double tallest = 1.25;  // height / width of the map at most
 constexpr double trail_step_s = 0.5;
 constexpr double most_m = 1e6;  // beyond, a position is damage and would hide the rest
@@ -117,7 +116,7 @@ PictureExtent extent_of(const Setting& setting, const Frame& frame, const Trails
     for (const Vec2 p : trail) extent.add(p);
   }
   for (const world::Obstacle& obstacle : setting.obstacles) std::visit(ExtentOfObstacle{extent}, obstacle);
-  extent.at_least(smallest_view_m);
+  extent.at_least(setting.range_m);
   return extent;
 }
 
@@ -133,7 +132,7 @@ class Picture {
     if (options.view) {
       extent_.low = options.view->low;
       extent_.high = options.view->high;
-      extent_.at_least(smallest_view_m);
+      extent_.at_least(setting.range_m);
     }
     size_.x = std::round(std::clamp(options.width_px, 200.0, 20000.0));  // whole pixels, or its edges blur
     if (options.height_px > 0.0) {

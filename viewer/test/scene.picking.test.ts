@@ -68,9 +68,14 @@ describe('bounds', () => {
     expect(b.maxY).toBeCloseTo(1.3, 9);
     expect(b.minY).toBeCloseTo(-1.5 - 0.6 * Math.SQRT2 / 1, 0);
   });
+  it('are as wide as the radio reaches, whatever that is', () => {
+    for (const range_m of [0.1, 2, 1000])
+      expect(boundsOf(settingOf({ range_m, radius_m: 0 }), frameOf({ x_m: [0], y_m: [0] })))
+        .toEqual({ minX: -range_m / 2, minY: -range_m / 2, maxX: range_m / 2, maxY: range_m / 2 });
+  });
   it('are never empty, and leave out what cannot be', () => {
     expect(boundsOf(settingOf(), frameOf({}))).toEqual({ minX: -1, minY: -1, maxX: 1, maxY: 1 });
-    expect(boundsOf(settingOf({ radius_m: 0 }), frameOf({ x_m: [1, NaN, 1e9], y_m: [1, 1, 1] }))).toEqual({ minX: 1, minY: 1, maxX: 1, maxY: 1 });
+    expect(boundsOf(settingOf({ radius_m: 0 }), frameOf({ x_m: [1, NaN, 1e9], y_m: [1, 1, 1] }))).toEqual({ minX: 0, minY: 0, maxX: 2, maxY: 2 });
   });
 });
 

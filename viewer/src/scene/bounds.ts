@@ -32,7 +32,7 @@ function addObstacle(bounds: Bounds, obstacle: Obstacle): void {
   }
 }
 
-/** Of robots, targets and obstacles; a small place around the origin if there is nothing. Give it the first frame
+/** Of robots, targets and obstacles, but at least as wide and high as the radio reaches. Give it the first frame
  *  and a late one to have room for what is to come. */
 export function boundsOf(setting: Setting, ...frames: readonly Frame[]): Bounds {
   const bounds = empty();
@@ -43,5 +43,9 @@ export function boundsOf(setting: Setting, ...frames: readonly Frame[]): Bounds 
     for (let k = 0; k < targets.x.length; ++k) add(bounds, targets.x[k]!, targets.y[k]!, setting.target_tolerance_m);
   }
   for (const obstacle of setting.obstacles) addObstacle(bounds, obstacle);
-  return bounds.minX <= bounds.maxX ? bounds : { minX: -1, minY: -1, maxX: 1, maxY: 1 };
+  const found = bounds.minX <= bounds.maxX ? bounds : { minX: 0, minY: 0, maxX: 0, maxY: 0 };
+  const least = setting.range_m || 2;
+  const growX = Math.max(0, least - (found.maxX - found.minX)) / 2;
+  const growY = Math.max(0, least - (found.maxY - found.minY)) / 2;
+  return { minX: found.minX - growX, minY: found.minY - growY, maxX: found.maxX + growX, maxY: found.maxY + growY };
 }

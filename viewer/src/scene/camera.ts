@@ -18,9 +18,8 @@ export interface Bounds { minX: number; minY: number; maxX: number; maxY: number
 export interface Insets { top: number; right: number; bottom: number; left: number }
 
 export const noInsets: Insets = { top: 0, right: 0, bottom: 0, left: 0 };
-export const smallestScale = 0.05; // px/m: a world of 20 km in a window
-export const largestScale = 4000;
-const smallestViewM = 2;
+export const smallestScale = 0.0005; // px/m: a world of 2,000 km in a window
+export const largestScale = 40000;
 
 const clampScale = (scale: number) => Math.min(largestScale, Math.max(smallestScale, scale));
 
@@ -64,8 +63,8 @@ export function resized(camera: Camera, widthPx: number, heightPx: number): Came
 export function fitted(
   bounds: Bounds, widthPx: number, heightPx: number, marginPx = 32, insets: Insets = noInsets,
 ): Camera {
-  const width = Math.max(smallestViewM, bounds.maxX - bounds.minX);
-  const height = Math.max(smallestViewM, bounds.maxY - bounds.minY);
+  const width = bounds.maxX - bounds.minX;
+  const height = bounds.maxY - bounds.minY;
   const freeX = Math.max(1, widthPx - insets.left - insets.right - 2 * marginPx);
   const freeY = Math.max(1, heightPx - insets.top - insets.bottom - 2 * marginPx);
   const scale = clampScale(Math.min(freeX / width, freeY / height));
