@@ -76,6 +76,35 @@ TEST_F(Program, AnyRobotCompletesWithoutASplit) {
   }
 }
 
+// One key changed over two decades: the mission completes in one piece, or the error begins with what was written.
+TEST_F(Program, OneKeyIsChangedOverTwoDecades) {
+  const std::vector<std::pair<std::string, std::vector<const char*>>> changes = {
+      {"radio.range_m", {"0.2", "0.5", "1", "5", "20"}},
+      {"swarm.robots", {"10", "50", "200"}},
+      {"robot.wheel_limit_m_s", {"0.02", "0.05", "0.5", "2"}},
+      {"robot.radius_m", {"0.007", "0.02", "0.2", "0.7"}},
+      {"tick_s", {"0.01", "0.05", "0.3", "1"}}};
+  int completed = 0, refused = 0;
+  for (const auto& [key, values] : changes)
+    for (const char* const value : values) {
+      const std::string set = key + "=" + value;
+      const auto outcome =
+          run({"run", std::string(BANYAN_SCENARIOS) + "/three-targets.toml", "--json", "--no-record", "--set", set});
+      if (outcome.code != 0) {
+        EXPECT_EQ(outcome.err.rfind("--set " + set + ": error: ", 0), 0U) << outcome.err;
+        ++refused;
+        continue;
+      }
+      auto result = json::parse(outcome.out);
+      if (result.contains("result")) result = result["result"];
+      EXPECT_EQ(result["complete"], true) << set;
+      EXPECT_EQ(result["split_ticks"], 0) << set;
+      ++completed;
+    }
+  EXPECT_EQ(completed, 16);
+  EXPECT_EQ(refused, 4);
+}
+
 TEST_F(Program, TheTableAndTheJsonHoldTheSame) {
   ASSERT_EQ(run({"run", "small.toml", "--out", "o"}).code, 0);
 
