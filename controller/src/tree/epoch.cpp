@@ -42,13 +42,6 @@ bool barrier_holds(const TreeRobot& robot, bool tree_complete) noexcept {
 
 }  // namespace
 
-void listen(TreeRobot& robot) noexcept {
-  TreeState& self = robot.self;
-  for (const Heard& h : robot.news_of_tree())
-    if (newer(h.message->root, self.root)) self.root = h.message->root;
-  follow_phase(robot, newest_phase(robot));
-}
-
 EpochPhase newest_phase(const TreeRobot& robot) noexcept {
   EpochPhase newest{robot.self.epoch, robot.self.phase};
   for (const Heard& h : robot.news_of_tree()) {
@@ -98,10 +91,6 @@ void advance(TreeRobot& robot, bool tree_complete, bool may_reconstruct, int pat
       break;
     default: break;  // SELECT ROOT ends with the root's next epoch (root_selection.hpp)
   }
-}
-
-void advance(TreeRobot& robot, bool tree_complete) noexcept {
-  advance(robot, tree_complete, true, whole(robot.params.barrier_rounds));
 }
 
 }  // namespace banyan

@@ -237,11 +237,6 @@ void count_unserved(TreeRobot& robot, bool unserved) noexcept {
   else robot.add_elapsed(robot.self.unserved_ticks);
 }
 
-bool is_at_midpoint(const TreeRobot& robot, int owner, int parent) noexcept {
-  const TreeTable& table = robot.table();
-  return norm((table.position(owner) + table.position(parent)) * 0.5F) <= robot.params.insertion_distance;
-}
-
 void manage_spares(TreeRobot& robot, const EdgeRule& rule) noexcept {
   TreeState& self = robot.self;
   const bool call = spread_call(robot, rule);

@@ -32,18 +32,6 @@ void carry_memory(TreeState& self, const Carry& carry) noexcept {
   if (self.centroid_known) self.centroid = carry.point(self.centroid);
 }
 
-void begin_tick(TreeRobot& robot, const Inputs<Heard>& inputs) noexcept {
-  carry_memory(robot.self, robot.carry);
-  file_heard(robot);
-  const KnownOfTree known(robot.self);
-  for (Heard& h : robot.heard)
-    if (known.lacks(*h.message)) robot.news.push(h);
-  robot.is_tree_news = true;
-  forget_silent(
-      robot, [](int) { return false; }, [](int, int) {});
-  follow_orders(robot, inputs.orders());
-}
-
 void file_heard(TreeRobot& robot) noexcept {
   const TreeState& self = robot.self;
   const RobotId me = self.id;

@@ -7,11 +7,7 @@
 
 namespace banyan {
 
-// Adopts the newest root token and the largest (epoch, phase) among the packets just heard.
-void listen(TreeRobot& robot) noexcept;
-
-// Its two halves, for those that listen in another way (healing/fragments.cpp): the largest (epoch, phase) of
-// mine and those just heard; and the step into it.
+// The largest (epoch, phase) of mine and those just heard; and the step into it.
 struct EpochPhase {
   Serial epoch;
   Phase phase;
@@ -25,8 +21,6 @@ void follow_phase(TreeRobot& robot, EpochPhase newest) noexcept;
 // epoch may begin once R is over.
 // `patience_ticks`: how long it waits in START TREE and SELECT PARENT.
 void advance(TreeRobot& robot, bool tree_complete, bool may_reconstruct, int patience_ticks) noexcept;
-// barrier_rounds, however deep the tree.
-void advance(TreeRobot& robot, bool tree_complete) noexcept;
 
 // Enters (epoch, phase): a new epoch makes the parent the old parent and forgets labels and grants;
 // GROW TREE forgets the old tree.

@@ -19,20 +19,8 @@ template <class Visit> void for_each_tree_neighbor(const TreeRobot& robot, Visit
       if (k != robot.parent && k != robot.old_parent) visit(k);
 }
 
-// The paper's u_i for a robot of the tree: springs along its edges, the target's pull within f.
-[[nodiscard]] Vec2 spring_motion(const TreeRobot& robot) noexcept;
-// A spare's: to the midpoint of the edge it was granted, else ADJUST POSITION.
-[[nodiscard]] Vec2 attendance_motion(const TreeRobot& robot) noexcept;
-// u^avoid: repulsion from robots nearer than A that are no tree neighbours; corrected: from obstacles, too.
+// u^avoid: repulsion from robots nearer than A that are no tree neighbours, and from obstacles.
 [[nodiscard]] Vec2 avoidance(const TreeRobot& robot) noexcept;
-
-// u_tree's magnitude, (epsilon/d)((delta/d)^2 - (delta/d)^4): positive towards
-// the neighbour. Not bounded as d goes to 0.
-[[nodiscard]] float interaction(float length, const TreeParams& params) noexcept;
-
-// Paper's f: what is left of target + avoidance for a robot whose parent is at `parent` (own frame).
-// literal: all up to S, nothing beyond; corrected: beyond S all but the part away from the parent.
-[[nodiscard]] Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params) noexcept;
 
 // The velocity (v_max, own frame) nearest to `u`, in units of speed_gain, within the guard and the wheels' limits.
 [[nodiscard]] Vec2 allowed(Vec2 u, const Guard& guard, const TreeParams& params) noexcept;

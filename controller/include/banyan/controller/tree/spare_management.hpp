@@ -18,8 +18,6 @@ struct EdgeRule {
 
 void manage_spares(TreeRobot& robot, const EdgeRule& rule) noexcept;
 
-// The paper's: a spare joins where it is nearer than J to the middle of the edge.
-[[nodiscard]] bool is_at_midpoint(const TreeRobot& robot, int owner, int parent) noexcept;
 // Ticks in NEED without a grant.
 void count_unserved(TreeRobot& robot, bool unserved) noexcept;
 

@@ -20,11 +20,7 @@ template <class State> State begun(RobotId id, bool worker, bool root) noexcept 
   return state;
 }
 
-// What is remembered is carried into the robot's present frame, the neighbour table is brought up to date, and
-// the orders are followed.
-void begin_tick(TreeRobot& robot, const Inputs<Heard>& inputs) noexcept;
-
-// Its parts. A robot that is sent to a target is a worker until it is called back.
+// A robot that is sent to a target is a worker until it is called back.
 void follow_orders(TreeRobot& robot, const Orders& orders) noexcept;
 void carry_memory(TreeState& self, const Carry& carry) noexcept;
 
