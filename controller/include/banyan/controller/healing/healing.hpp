@@ -177,7 +177,7 @@ void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept;
 
 // ---- fragments.cpp: two networks meet ----
 
-// What listen() does, in a swarm that may have been torn apart: when two roots meet, the root of the
+// Adopts root and phase, in a swarm that may have been torn apart: when two roots meet, the root of the
 // larger fragment stays.
 void listen_among_fragments(HealingRobot& robot) noexcept;
 // accept_offer() and advance(), with the size of the root's fragment.
