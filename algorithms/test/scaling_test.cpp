@@ -96,8 +96,9 @@ class Course {
  public:
   Course(const Platform& platform, std::uint64_t seed) : platform_(platform), state_(seed * 2'654'435'761U + 1) {
     for (std::size_t i = 0; i < swarm_size; ++i) {
-      const auto column = static_cast<float>(i % 4), row = static_cast<float>(i / 4);
-      at_[i] = Vec2{0.4F * column + draw(0.1F), 0.45F * row + draw(0.1F)} * platform.communication_range_m;
+      const std::size_t column = i % 4, row = i / 4;
+      at_[i] = Vec2{0.4F * static_cast<float>(column) + draw(0.1F), 0.45F * static_cast<float>(row) + draw(0.1F)} *
+               platform.communication_range_m;
       facing_[i] = unit_vector(draw(3.0F));
     }
   }

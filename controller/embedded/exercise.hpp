@@ -3,8 +3,10 @@
 // to a number. The firmware runs it on the chip, the tests on the host.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <new>
 #include <optional>
@@ -75,11 +77,9 @@ std::uint64_t exercise(Step step, Drive drive, State& state, Message said) noexc
 }
 
 // Room for one robot of any algorithm. A robot's memory is known when it is built.
-union Memory {
-  char nothing = 0;
-  ConvoyState convoy;
-  paper::State paper;
-  constexpr Memory() noexcept {}
+struct Memory {
+  alignas(ConvoyState) alignas(
+      paper::State) std::array<std::byte, std::max(sizeof(ConvoyState), sizeof(paper::State))> bytes{};
 };
 
 // Every algorithm with every drive, as connector and as worker; names and results go to `report`.
@@ -92,7 +92,7 @@ inline void exercise_all(Memory& memory, void (*report)(const char* name, std::u
         const auto step = [&](paper::State& state, const Inputs<paper::Heard>& inputs) {
           return paper::step(growth, reading, params, state, inputs);
         };
-        paper::State& state = *new (&memory.paper) paper::State(paper::initial(0, worker, false));
+        paper::State& state = *new (memory.bytes.data()) paper::State(paper::initial(0, worker, false));
         report(name, exercise<paper::Heard>(step, drive, state, paper::Message{}));
       };
       of_paper("outwards, literal", paper::outwards, paper::literal, paper::outwards_column());
@@ -104,7 +104,7 @@ inline void exercise_all(Memory& memory, void (*report)(const char* name, std::u
       const auto step = [&](ConvoyState& state, const Inputs<Heard>& inputs) {
         return convoy_step(params, state, inputs);
       };
-      ConvoyState& state = *new (&memory.convoy) ConvoyState(initial_convoy_state(0, worker, false));
+      ConvoyState& state = *new (memory.bytes.data()) ConvoyState(initial_convoy_state(0, worker, false));
       report("convoy", exercise<Heard>(step, drive, state, ConvoyMessage{}));
     }
   }

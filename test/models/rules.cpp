@@ -19,6 +19,16 @@ namespace {
 
 using namespace banyan;
 
+// One root, no fragments: the newest root token, and the largest (epoch, phase).
+void listen(HealingRobot& robot) {
+  for (const Heard& h : robot.news_of_tree())
+    if (newer(h.message->root, robot.self.root)) robot.self.root = h.message->root;
+  follow_phase(robot, newest_phase(robot));
+}
+void advance(HealingRobot& robot, bool tree_complete) {
+  advance(robot, tree_complete, true, whole(robot.params.barrier_rounds));
+}
+
 RobotId to_id(int id) { return id < 0 ? nobody : static_cast<RobotId>(id); }
 signed char from_id(RobotId id) { return id == nobody ? static_cast<signed char>(-1) : static_cast<signed char>(id); }
 
@@ -51,7 +61,7 @@ class Bench {
     index_neighbors(robot);
     call(robot);
   }
-  static constexpr Platform platform{.communication_range_m = 1.0F, .wheel_limit_m_s = 0.1F};
+  static constexpr Platform platform{.communication_range_m = 2.0F, .wheel_limit_m_s = 0.2F};
   static HealingParams& params() {
     static HealingParams p = [] {
       HealingParams short_waits;

@@ -102,7 +102,7 @@ void leave_tree(Robot& robot) noexcept {
 // What it says of itself, with vectors in the frame of the edge to their addressee.
 Message written(const Robot& robot) noexcept {
   const State& self = robot.self;
-  Message m = self;
+  Message m = static_cast<const Message&>(self);
   m.q = {};
   if (const int up = robot.up(); up >= 0) {
     constexpr float most = 0.5F * largest_q;  // turned, a component grows by up to sqrt 2

@@ -10,10 +10,10 @@ import { module, native, open, scenarios, until } from './together.mjs';
 const ticks = 200;
 const huge = ['swarm-500.toml', 'swarm-1000.toml', 'swarm-10000.toml', 'benchmark-1000.toml', 'benchmark-10000.toml'];
 
-async function compare(text, overrides = []) {
+async function compare(text, overrides = [], tickS = 0.1) {
   const live = open(text, overrides);
   live.step(ticks);
-  const result = await native(text, [...overrides, ...until(ticks)]);
+  const result = await native(text, [...overrides, ...until(ticks, tickS)]);
   assert.equal(result.ticks, ticks);
   assert.equal(live.hash(), result.hash);
   live.delete();
@@ -21,7 +21,10 @@ async function compare(text, overrides = []) {
 
 for (const file of (await readdir(scenarios)).sort()) {
   if (!file.endsWith('.toml') || huge.includes(file)) continue;
-  test(`${file}: ${ticks} ticks`, async () => compare(await readFile(join(scenarios, file), 'utf8')));
+  test(`${file}: ${ticks} ticks`, async () => {
+    const text = await readFile(join(scenarios, file), 'utf8');
+    await compare(text, [], Number(/^tick_s = ([\d.]+)/m.exec(text)?.[1] ?? 0.1));
+  });
 }
 
 const threeTargets = await readFile(join(scenarios, 'three-targets.toml'), 'utf8');
