@@ -29,7 +29,7 @@ constexpr double smallest_robot_px = 3.4;   // radius; smaller ones could not be
 constexpr double smallest_spare_px = 2.2;   // of hundreds, which must not hide the tree
 constexpr Vec2 zoom_one_px{1280.0, 720.0};  // a picture of given size whose text is as large as elsewhere;
 constexpr double smallest_zoom = 0.7;       // it goes with the picture, down to what can be read
-constexpr double tallest = 1.25;  // height / width of the map at most
+constexpr double tallest = 1.25;            // height / width of the map at most
 constexpr double trail_step_s = 0.5;
 constexpr double most_m = 1e6;  // beyond, a position is damage and would hide the rest
 
