@@ -8,7 +8,6 @@ Rewrites what stands between <!-- table: NAME --> and <!-- end --> in the page; 
 prints all tables. Needs nothing but Python's standard library.
 """
 import os
-import re
 import sys
 
 from tables import rows_of, table, write_page
@@ -22,11 +21,6 @@ ALGORITHMS = ["outwards", "inwards"]
 def shown(reading):
     """Convoy has nothing printed that could be read in two ways: its rows stand with `corrected`."""
     return ALGORITHMS + (["convoy"] if reading == "corrected" else [])
-
-
-def part_of(row):
-    """Its part; those of the ranges are one."""
-    return re.sub(r"^range-[0-9.]+$", "range", row["part"])
 
 
 class Statistics:
@@ -44,12 +38,12 @@ class Statistics:
     def _by_metric(rows):
         index = {}
         for row in rows:
-            index.setdefault((part_of(row), row["metric"]), []).append(row)
+            index.setdefault((row["part"], row["metric"]), []).append(row)
         return index
 
     def runs(self, part):
         """The rows of runs.csv of this part."""
-        return [row for row in rows_of(f"{self.folder}/runs.csv") if part_of(row) == part]
+        return [row for row in rows_of(f"{self.folder}/runs.csv") if row["part"] == part]
 
     def _find(self, rows, labels):
         # Axes that are not named are pooled, or do not exist in this part.
@@ -207,14 +201,6 @@ def sweep(s, part, axis, values):
                   "network split, % of runs"], rows)
 
 
-def radio_range(s):
-    return sweep(s, "range", "C", ["1.9", "2", "2.5", "3"])
-
-
-def speed(s):
-    return sweep(s, "speed", "v", ["0.1", "0.2", "0.4", "0.8"])
-
-
 def gain(s):
     return sweep(s, "gain", "K", ["0.1", "0.2", "0.4", "0.8"])
 
@@ -258,9 +244,7 @@ def tuned(s):
 
 # The conditions of studies/claims.toml: words, part, labels of the axis that is its factor.
 CONDITIONS = ([("the paper's settings", "start", {"start": "compact"})]
-              + [(f"C = {C} m", "range", {"C": C}) for C in ("1.9", "1.92", "1.95", "1.97", "2.5", "3")]
               + [(f"K = {K}", "gain", {"K": K}) for K in ("0.1", "0.4", "0.8")]
-              + [(f"v_max = {v} m/s", "speed", {"v": v}) for v in ("0.1", "0.4", "0.8")]
               + [(f"τ = {tau} for both", "pull", {"tau": tau}) for tau in ("0.2539", "0.49", "1")]
               + [("limit of 5 straight drives", "limit", {}),
                  ("sight on, exact", "sight", {"sight": "exact"}), ("sight on, leaky", "sight", {"sight": "leaky"}),
@@ -305,15 +289,13 @@ def claims_redundancy(s):
 
 def claims_large(s):
     """The same factors as far as studies/paper.toml has them, with more runs: (a) and (b), and for (c) who missed at which k."""
-    levels = [("C", "m", "range", ("1.9", "2", "2.5", "3")), ("K", "", "gain", ("0.1", "0.4", "0.8")),
-              ("v", "m/s", "speed", ("0.1", "0.4", "0.8")), ("tau", "", "pull", ("0.2539", "0.49", "1"))]
-    words = {"v": "v_max", "tau": "τ"}
+    levels = [("K", "gain", ("0.1", "0.4", "0.8")), ("tau", "pull", ("0.2539", "0.49", "1"))]
     rows = []
-    for axis, unit, part, values in levels:
+    for axis, part, values in levels:
         late = misses(s, part, ("reading", axis, "k"))
         for reading in READINGS:
             for value in values:
-                name = f"{words.get(axis, axis)} = {value} {unit}".strip() + (" for both" if axis == "tau" else "")
+                name = f"τ = {value} for both" if axis == "tau" else f"{axis} = {value}"
                 rows.append([reading, name]
                             + [duel(s.compare(part, "normalized_time", reading=reading, r=r, **{axis: value})) for r in RADII]
                             + [", ".join(" / ".join(str(n) for n in late[(reading, value, k)]) for k in ("2", "3", "4"))])
@@ -402,7 +384,7 @@ def equal_pull(s):
 
 
 TABLES = {"convoy": convoy, "equal-pull": equal_pull, "time": time, "complete": complete, "broken": broken,
-          "broken-by-redundancy": broken_by_redundancy, "split": split, "fiedler": fiedler, "redundancy": redundancy, "range": radio_range, "speed": speed, "gain": gain, "pull": pull, "real": real,
+          "broken-by-redundancy": broken_by_redundancy, "split": split, "fiedler": fiedler, "redundancy": redundancy, "gain": gain, "pull": pull, "real": real,
           "claims-large": claims_large, "claims-limit": claims_limit}
 # Tables of another study, whose results lie beside those of the first.
 OTHERS = {"tuned": ("tuned", tuned), "claims-literal": ("claims", claims_literal),
