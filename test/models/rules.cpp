@@ -153,7 +153,7 @@ void order_update(int me, Order* self, int id, const Order* heard, int cm) {
   HealingState& s = Bench::self();
   if (s.parent != nobody) s.role = Role::connector;  // a spare would leave
   bench.step([](HealingRobot& robot) {
-    select_parent(robot, {.may_join = false, .workers_relay = true, .accepts = never, .prefers = never});
+    select_parent(robot, {.may_join = false, .prefers = never});
     find_hold(robot);
   });
   order_read(*self);
@@ -402,10 +402,7 @@ void stage_step(int me, Stage* self, const Stage* const* heard, const int* from,
     else if (robot.is_root()) robot.self.done_ticks = 100, robot.self.phase_ticks = 5;
     advance(robot, robot.self.subtree_workers >= robot.self.flood_workers);
     update_label(robot);
-    select_parent(robot, {.may_join = self->worker || is_named_parent(robot),
-                          .workers_relay = true,
-                          .accepts = always,
-                          .prefers = [&](int a, int b) {
+    select_parent(robot, {.may_join = self->worker || is_named_parent(robot), .prefers = [&](int a, int b) {
                             return robot.table().message(a).label < robot.table().message(b).label;
                           }});
     take_census(robot, 0);

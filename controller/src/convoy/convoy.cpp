@@ -2,6 +2,7 @@
 #include "banyan/controller/convoy/convoy.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "banyan/controller/convoy/handing_on.hpp"
 #include "banyan/controller/convoy/plan.hpp"
@@ -160,13 +161,12 @@ bool may_reconstruct(const ConvoyRobot& robot) noexcept {
 // Edges of a tree that has arrived are nearly as long as they may be, and the flood takes short cuts over longer links.
 // So a robot of the last tree waits for a label over a link that may be an edge; else it would find no parent, while
 // robots that were above it take it for theirs.
-LabelRule label_rule(const ConvoyRobot& robot) noexcept {
+float label_reach(const ConvoyRobot& robot) noexcept {
   constexpr int edge_wait_ticks = 30;
   const ConvoyState& self = robot.self;
-  LabelRule rule{.waits_for_anybody = false};
   const bool is_member = self.old_parent != nobody || robot.useful_children > 0;
-  if (has_arrived(robot) && is_member && self.phase_ticks < edge_wait_ticks) rule.reach = longest_link;
-  return rule;
+  const bool waits = has_arrived(robot) && is_member && self.phase_ticks < edge_wait_ticks;
+  return waits ? longest_link : std::numeric_limits<float>::max();
 }
 
 // Once all workers have arrived, a spare that became root would be one more robot in the tree.
@@ -212,11 +212,9 @@ ConvoyParams convoy_defaults() noexcept {
   p.safe_range = 0.90F;             // the root and junctions are towed only beyond it
   p.recruitment_distance = 0.825F;  // a longer edge asks for a spare
   p.avoidance_range = 0.18F;
-  p.interaction_gain = 0.05F;
   p.target_gain = 1.0F;
   p.reconfiguration_drives = 4.4F;
   p.liveness_rounds = 5.0F;
-  p.insertion_distance = 0.0331975F;
   p.guard_rate = 20.0F;
   p.connector_rounds = 10.0F;
   return p;
@@ -286,10 +284,8 @@ static Motion tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMessag
   update_role(robot);
   advance_and_count(robot, state.subtree_workers >= state.flood_workers,
                     may_reconstruct(robot));                                    // the root's barriers
-  update_label(robot, label_rule(robot));                                       // Start Tree
+  update_label(robot, label_reach(robot));                                      // Start Tree
   select_parent(robot, {.may_join = state.is_worker || is_named_parent(robot),  // Select Parent, repair
-                        .workers_relay = true,
-                        .accepts = [](int) { return true; },
                         .prefers = [&](int a, int b) { return is_better_parent(robot, a, b); }});
   if (robot.power != nullptr) {
     watch_charge(*robot.power, inputs.charge(), inputs.orders());  // must I be relieved?
@@ -320,7 +316,7 @@ static Motion tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMessag
   const bool retreats = is_retreating(robot, regroups);
   Vec2 u;
   if (!closes_gap(robot, u) && !awaits_others(robot, u))
-    u = retreats                    ? retreat_motion(robot, regroups, true)
+    u = retreats                    ? retreat_motion(robot, regroups)
         : state.role == Role::spare ? waiting_motion(robot)
                                     : towed_motion(robot);
   if (awaits_the_unheard(robot)) u = {};

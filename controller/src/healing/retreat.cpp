@@ -37,11 +37,11 @@ Vec2 search(const HealingRobot& robot) noexcept {
 }
 
 // The nearest neighbour that knows a way to the rooted tree and is no child of mine; -1 if there is none.
-int way_home(const HealingRobot& robot, bool workers_relay) noexcept {
+int way_home(const HealingRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   return least_of(table.size(), not_counted, [&](int k) {
     const TreeStanding& m = table.message(k);
-    const bool knows = table.alive(k) && (m.role != Role::worker || workers_relay) && m.tree_hops != unreachable &&
+    const bool knows = table.alive(k) && m.tree_hops != unreachable &&
                        m.parent != robot.self.id;
     return knows ? table.range(k) : not_counted;
   });
@@ -94,10 +94,10 @@ bool is_retreating(const HealingRobot& robot, bool regroups) noexcept {
   return self.orphan_ticks > lost_ticks || is_cut_off(robot) || regroups || seeks_parent(robot);
 }
 
-Vec2 retreat_motion(const HealingRobot& robot, bool regroups, bool workers_relay) noexcept {
+Vec2 retreat_motion(const HealingRobot& robot, bool regroups) noexcept {
   constexpr float near_enough = 0.2F;  // of C
   if (is_alone(robot)) return search(robot);
-  const int k = is_cut_off(robot) || regroups ? -1 : way_home(robot, workers_relay);
+  const int k = is_cut_off(robot) || regroups ? -1 : way_home(robot);
   const Vec2 goal = seeks_parent(robot) ? beside_parent(robot)
                     : k >= 0            ? robot.table().position(k)
                                         : robot.self.root_at;

@@ -15,18 +15,14 @@ constexpr int orphan_still_ticks = 5;
 constexpr int orphan_attach_ticks = 20;
 constexpr int drafted_attach_ticks = 4;
 
-bool may_relay(const ParentRule& rule, const TreeStanding& m) noexcept {
-  return m.role != Role::worker || rule.workers_relay;
-}
-
 // The best candidate by the rule, -1 if none. `in_tree`: only committed robots that are not spares.
 int choose_parent(const TreeRobot& robot, const ParentRule& rule, bool in_tree) noexcept {
   const TreeTable& table = robot.table();
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
-    if (!is_candidate(robot, k, rule.workers_relay)) continue;
+    if (!is_candidate(robot, k)) continue;
     const TreeStanding& m = table.message(k);
-    if (in_tree ? !m.committed || m.role == Role::spare : !rule.accepts(k)) continue;
+    if (in_tree && (!m.committed || m.role == Role::spare)) continue;
     if (best < 0 || rule.prefers(k, best)) best = k;
   }
   return best;
@@ -34,22 +30,22 @@ int choose_parent(const TreeRobot& robot, const ParentRule& rule, bool in_tree) 
 
 // No candidate for a while: the flood parent, even beyond the range in which parents are chosen, if it
 // is ahead.
-int flood_parent(const TreeRobot& robot, const ParentRule& rule) noexcept {
+int flood_parent(const TreeRobot& robot) noexcept {
   const TreeState& self = robot.self;
   const int k = robot.table().find(self.flood_parent);
   if (k < 0 || !robot.is_sure(k)) return -1;
   const TreeStanding& m = robot.table().message(k);
   const bool near = robot.table().range(k) <= longest_link;
-  return near && may_relay(rule, m) && m.epoch == self.epoch && m.label < self.label && is_ahead(robot, k) ? k : -1;
+  return near && m.epoch == self.epoch && m.label < self.label && is_ahead(robot, k) ? k : -1;
 }
 
 // Still none: a childless robot has no robot below it, so it may move behind any committed neighbour.
-int nearest_committed(const TreeRobot& robot, const ParentRule& rule) noexcept {
+int nearest_committed(const TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   return least_of(table.size(), not_counted, [&](int k) {
     const TreeStanding& m = table.message(k);
-    const bool may = robot.is_sure(k) && may_relay(rule, m) && m.epoch == robot.self.epoch && m.committed &&
-                     m.label != unknown_label && is_ahead(robot, k) && table.range(k) <= robot.parent_range();
+    const bool may = robot.is_sure(k) && m.epoch == robot.self.epoch && m.committed && m.label != unknown_label &&
+                     is_ahead(robot, k) && table.range(k) <= robot.parent_range();
     return may ? table.range(k) : not_counted;
   });
 }
@@ -60,9 +56,9 @@ void join(TreeRobot& robot, const ParentRule& rule) noexcept {
   int k = choose_parent(robot, rule, false);
   if (k < 0) {
     if (self.search_ticks < UINT16_MAX) ++self.search_ticks;
-    if (self.search_ticks > patience_flood_ticks) k = flood_parent(robot, rule);
+    if (self.search_ticks > patience_flood_ticks) k = flood_parent(robot);
     const bool childless = robot.children.size == 0 && robot.old_children.size == 0;
-    if (k < 0 && childless && self.search_ticks > patience_relabel_ticks) k = nearest_committed(robot, rule);
+    if (k < 0 && childless && self.search_ticks > patience_relabel_ticks) k = nearest_committed(robot);
   }
   if (k >= 0) take_parent(robot, k);
 }
@@ -79,20 +75,20 @@ void repair(TreeRobot& robot, const ParentRule& rule) noexcept {
 
 // The neighbour through which the rooted tree is nearest: a robot of the tree, or a free spare that can be
 // drafted towards it. Never an orphan: it might be below me in the tree.
-int way_to_tree(const TreeRobot& robot, const ParentRule& rule, float range) noexcept {
+int way_to_tree(const TreeRobot& robot, float range) noexcept {
   const TreeTable& table = robot.table();
   int best = -1;
   const auto key = [&](int k) { return std::pair(table.message(k).tree_hops, table.range(k)); };
   for (int k = 0; k < table.size(); ++k) {
     const TreeStanding& m = table.message(k);
-    if (!robot.is_sure(k) || !may_relay(rule, m) || m.epoch != robot.self.epoch || m.tree_hops == unreachable) continue;
+    if (!robot.is_sure(k) || m.epoch != robot.self.epoch || m.tree_hops == unreachable) continue;
     if (!is_ahead(robot, k) || m.old_parent == robot.self.id || table.range(k) > range) continue;
     if (best < 0 || key(k) < key(best)) best = k;
   }
   return best;
 }
 
-void reattach_orphan(TreeRobot& robot, const ParentRule& rule) noexcept {
+void reattach_orphan(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
   const bool matters = !robot.is_root() && (self.is_worker || robot.useful_children > 0);
   const bool settled = self.phase >= Phase::grow_tree;
@@ -104,8 +100,8 @@ void reattach_orphan(TreeRobot& robot, const ParentRule& rule) noexcept {
   const bool drafted = self.parent == nobody && !self.is_worker;
   if (self.orphan_ticks <= (drafted ? drafted_attach_ticks : orphan_attach_ticks)) return;
   const float last_resort = longest_link;
-  int k = way_to_tree(robot, rule, std::min(robot.parent_range(), last_resort));
-  if (k < 0) k = way_to_tree(robot, rule, last_resort);
+  int k = way_to_tree(robot, std::min(robot.parent_range(), last_resort));
+  if (k < 0) k = way_to_tree(robot, last_resort);
   if (k < 0) return;
   take_parent(robot, k);
   self.orphan_ticks = orphan_still_ticks;  // time for the new parent to attach in turn
@@ -179,12 +175,12 @@ void update_tree_hops(TreeRobot& robot) noexcept {
 
 }  // namespace
 
-bool is_candidate(const TreeRobot& robot, int k, bool workers_relay) noexcept {
+bool is_candidate(const TreeRobot& robot, int k) noexcept {
   const TreeStanding& m = robot.table().message(k);
   // An edge that exists may be as long as the guard lets it grow.
   const float range = std::max(robot.parent_range(), k == robot.old_parent ? robot.params.ideal_distance : 0.0F);
-  return robot.is_sure(k) && (m.role != Role::worker || workers_relay) && m.epoch == robot.self.epoch &&
-         m.label < robot.self.label && is_ahead(robot, k) && robot.table().range(k) <= range;
+  return robot.is_sure(k) && m.epoch == robot.self.epoch && m.label < robot.self.label && is_ahead(robot, k) &&
+         robot.table().range(k) <= range;
 }
 
 bool is_ahead(const TreeRobot& robot, int k) noexcept {
@@ -246,7 +242,7 @@ void select_parent(TreeRobot& robot, const ParentRule& rule) noexcept {
     if (self.parent == nobody) join(robot, rule);
     else if (!robot.parent_alive()) repair(robot, rule);
     else if (self.role == Role::spare && self.phase >= Phase::grow_tree && robot.children.size == 0) leave_tree(robot);
-    reattach_orphan(robot, rule);
+    reattach_orphan(robot);
   }
   update_seqno(robot);
   update_depth(robot);

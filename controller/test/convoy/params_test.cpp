@@ -40,8 +40,6 @@ TEST(ConvoyParams, TheDefaultsAreConvoysOwn) {
   const ConvoyParams p = convoy_defaults();
   EXPECT_EQ(p.reconfiguration_drives, 4.4F);
   EXPECT_EQ(p.liveness_rounds, 5.0F);
-  EXPECT_EQ(p.insertion_distance, 0.0331975F);
-  EXPECT_EQ(p.interaction_gain, 0.05F);
 }
 
 }  // namespace

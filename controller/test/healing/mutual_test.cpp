@@ -178,7 +178,7 @@ TEST(Mutual, WhoDoesNotHearMeIsNoHoldAndNoParent) {
   h.bench.state.is_worker = true;
   h.speak();
   auto robot = h.bench.tick();
-  EXPECT_FALSE(is_candidate(robot, robot.table().find(2), true));
+  EXPECT_FALSE(is_candidate(robot, robot.table().find(2)));
 }
 
 // It divides us from the tree: I drive to it and call, and do not lose it meanwhile.

@@ -21,7 +21,7 @@ TEST(Retreat, WhoHearsOfNoRootDrivesToWhereItWas) {
   watch.bench.steps(whole(p.retreat_after_rounds) + 2 * whole(p.liveness_rounds) + 1);
   auto robot = watch.bench.tick();
   EXPECT_TRUE(is_retreating(robot, false));
-  EXPECT_GT(retreat_motion(robot, false, true).x, 0.9F);
+  EXPECT_GT(retreat_motion(robot, false).x, 0.9F);
   EXPECT_GT(watch.bench.step().motion.forward, 0.75F);
   watch.bench.put(root_id, {0.975F, 0.0F}).heartbeat = watch.count;
   watch.bench.step();
@@ -92,7 +92,7 @@ TEST(Retreat, WithManyTargetsAnOrphanFirstSeeksThePlaceOfItsParent) {
     index_neighbors(robot);
     robot.meets_at_the_dead = has_many_targets(robot);
     EXPECT_TRUE(is_retreating(robot, false));
-    return retreat_motion(robot, false, true);
+    return retreat_motion(robot, false);
   };
   const int soon = convoy_defaults().rounds(0.5F);
   EXPECT_LT(course(false, 1.0F, soon).x, -0.5F) << "else to the root";

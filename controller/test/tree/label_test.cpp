@@ -52,7 +52,7 @@ TEST(Label, WhoIsNotPatientWaitsOnlyForWhomItHears) {
     bench.put(5, other);
     for (int ticks = 1;; ++ticks) {
       auto robot = bench.tick();
-      update_label(robot, {.waits_for_anybody = false});
+      update_label(robot);
       if (bench.state.label != unknown_label) return ticks;
     }
   };

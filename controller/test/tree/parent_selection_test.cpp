@@ -29,16 +29,16 @@ template <class Kind> auto& committed(BenchOf<Kind>& bench, RobotId id, Vec2 pos
   return m;
 }
 
-TEST(Candidate, IsAliveNoWorkerOfThisEpochNearEnoughAndAhead) {
+TEST(Candidate, IsAliveOfThisEpochNearEnoughAndAhead) {
   ConvoyBench bench = selecting();
   committed(bench, 5, {0.5F, 0}, 100);
   const auto is = [&] {
     const auto robot = bench.tick();
-    return is_candidate(robot, robot.table().find(5), false);
+    return is_candidate(robot, robot.table().find(5));
   };
   EXPECT_TRUE(is());
   bench.say(5).role = Role::worker;
-  EXPECT_FALSE(is());
+  EXPECT_TRUE(is());
   bench.say(5).role = Role::connector;
   bench.say(5).epoch = 2;
   EXPECT_FALSE(is());
@@ -133,10 +133,7 @@ TEST(Repair, ASilentParentIsReplacedOnceTheLivenessPeriodIsOver) {
   const auto tick = [&] {
     auto robot = bench.tick();
     update_role(robot);
-    select_parent(robot, {.may_join = true,
-                          .workers_relay = true,
-                          .accepts = [](int) { return true; },
-                          .prefers = [](int, int) { return false; }});
+    select_parent(robot, {.may_join = true, .prefers = [](int, int) { return false; }});
   };
   tick();
   bench.silence(5);

@@ -168,7 +168,7 @@ void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept;
 // No root has been heard of for long, or it regroups.
 [[nodiscard]] bool is_retreating(const HealingRobot& robot, bool regroups) noexcept;
 // Towards where the root was, in units of speed_gain.
-[[nodiscard]] Vec2 retreat_motion(const HealingRobot& robot, bool regroups, bool workers_relay) noexcept;
+[[nodiscard]] Vec2 retreat_motion(const HealingRobot& robot, bool regroups) noexcept;
 
 // How far this robot has to drive for a reason of its own, C: to where the last robot below it was.
 [[nodiscard]] inline float own_want(const HealingRobot& robot) noexcept {

@@ -9,11 +9,8 @@
 
 namespace banyan {
 
-struct LabelRule {
-  bool waits_for_anybody = true;  // a robot waits for labels of nearer neighbours, even if there is no such neighbour
-  float reach = std::numeric_limits<float>::max();  // from robots farther away it takes none
-};
-void update_label(TreeRobot& robot, const LabelRule& rule = {}) noexcept;
+// `reach`, C: no label is taken from robots farther away.
+void update_label(TreeRobot& robot, float reach = std::numeric_limits<float>::max()) noexcept;
 
 // Length of an edge in the label's unit, 1 / per_range of C; at least 1, so that a label grows along every edge.
 [[nodiscard]] std::uint16_t edge_label(float range) noexcept;

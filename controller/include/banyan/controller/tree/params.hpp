@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everything a designer of the paper's algorithms sets and a step never changes. The defaults here are
-// Table I's outwards column; each algorithm supplies its own.
+// What a designer sets of convoy's tree, and a step never changes; convoy.cpp has its defaults.
 #pragma once
 
 #include <span>
@@ -16,14 +15,12 @@ struct TreeParams : Machine {
   float safe_range = 0.69465F;      // S
   float avoidance_range = 0.2158F;  // A
   float ideal_distance = 0.95F;     // delta, also the emergency range (protocol 2, row 1)
-  float interaction_gain = 0.05F;   // epsilon, C
   float target_gain = 0.49F;        // tau
   // Tree growth, Table I
   float reconfiguration_drives = 3.88F;  // R
   float liveness_rounds = 12.0F;         // I
   // Uncommitted management, Table I
   float recruitment_distance = 0.66045F;  // E
-  float insertion_distance = 0.04895F;    // J
   // Gaps of the paper
   float avoidance_gain = 0.5F;      // protocol 9
   float parent_margin = 0.01F;      // a parent is chosen at d <= delta - margin (corrected)

@@ -8,18 +8,15 @@
 
 namespace banyan {
 
-// What differs between the algorithms in SELECT PARENT. Whether a neighbour is a candidate at all is decided
-// by is_candidate() for every rule: its order keeps the tree free of cycles.
+// Who joins, and whom. Whether a neighbour is a candidate at all is decided by is_candidate() for every rule: its
+// order keeps the tree free of cycles.
 struct ParentRule {
   bool may_join;                            // a robot without parent may join the tree now
-  bool workers_relay;                       // a worker may be a parent (protocol 5: not in the paper)
-  FunctionRef<bool(int k)> accepts;         // neighbour k of the table is a candidate for this algorithm
   FunctionRef<bool(int a, int b)> prefers;  // candidate a is better than candidate b
 };
 
-// Candidate parent: alive, no worker unless they relay, same epoch, near enough, label strictly smaller
-// than mine, and ahead of me.
-[[nodiscard]] bool is_candidate(const TreeRobot& robot, int k, bool workers_relay) noexcept;
+// Candidate parent: alive, same epoch, near enough, label strictly smaller than mine, and ahead of me.
+[[nodiscard]] bool is_candidate(const TreeRobot& robot, int k) noexcept;
 
 // Neighbour k's (seqno, label) is ahead of mine: a newer number, or the same and a smaller label. No robot
 // ever falls back behind a pair it has sent, and none takes a parent that is not ahead; so the pairs
