@@ -37,7 +37,7 @@ class TuneProgram : public StartedProgram {
            "[optimizer]\ngenerations = " +
            std::to_string(generations) +
            "\npopulation = 6\nislands = 2\n"
-           "[bounds]\ntarget_gain = [0.1, 1.1]\ninteraction_gain = [0.005, 0.1]\n";
+           "[bounds]\ntarget_gain = [0.1, 1.1]\ntension_gain = [0.005, 0.8]\n";
   }
   pid_t start(Arguments arguments) {
     arguments.insert(arguments.begin(), "tune");
