@@ -77,7 +77,8 @@ std::string targets_text(const measure::Run& run, std::size_t targets) {
   std::string text = format("%u of %zu held in the end", run.held_targets, targets);
   if (!run.missed_targets.empty()) text += "; not: " + first_few(run.missed_targets);
   if (run.oracle_robots > 0 && run.oracle_targets < targets)
-    text += format("; the %u robots are too few for all, an oracle holds %u", run.robots, run.oracle_targets);
+    text += format("; %u robots are too few: an oracle holds %u with them, and needs %u for all (swarm.robots)",
+                   run.robots, run.oracle_targets, run.oracle_robots);
   return text;
 }
 

@@ -105,6 +105,13 @@ TEST_F(Program, OneKeyIsChangedOverTwoDecades) {
   EXPECT_EQ(refused, 4);
 }
 
+TEST_F(Program, TooFewRobotsAreToldHowManyItTakes) {
+  const auto outcome =
+      run({"run", std::string(BANYAN_SCENARIOS) + "/three-targets.toml", "--no-record", "--set", "swarm.robots=5"});
+  EXPECT_TRUE(has(outcome.out, "5 robots are too few")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "needs 6 for all (swarm.robots)")) << outcome.out;
+}
+
 TEST_F(Program, TheTableAndTheJsonHoldTheSame) {
   ASSERT_EQ(run({"run", "small.toml", "--out", "o"}).code, 0);
 
