@@ -17,6 +17,7 @@ const AlgorithmList& algorithms() noexcept {
           &outwards(),
           &inwards(),
           &convoy(),
+          &caravan_algorithm(),
           &rivals::link_consensus::algorithm(),
           &rivals::mst::algorithm(),
           &rivals::fiedler::algorithm(),

@@ -10,6 +10,7 @@ namespace banyan {
 [[nodiscard]] const Algorithm& outwards() noexcept;
 [[nodiscard]] const Algorithm& inwards() noexcept;
 [[nodiscard]] const Algorithm& convoy() noexcept;
+[[nodiscard]] const Algorithm& caravan_algorithm() noexcept;
 [[nodiscard]] const AlgorithmList& algorithms() noexcept;
 
 }  // namespace banyan

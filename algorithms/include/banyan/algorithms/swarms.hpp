@@ -2,6 +2,7 @@
 // What a swarm of each algorithm is made of (core/swarm_of.hpp).
 #pragma once
 
+#include "banyan/controller/caravan/caravan.hpp"
 #include "banyan/controller/convoy/convoy.hpp"
 #include "banyan/controller/core/swarm_of.hpp"
 #include "banyan/controller/healing/tick.hpp"
@@ -34,6 +35,19 @@ template <const paper::Growth& growth, const paper::Reading& reading> struct Pap
   }
   static Report report(const State& state) { return paper::report(state); }
   static void add_to(Digest& digest, const State& state) { paper::add_to(digest, state); }
+};
+
+struct CaravanSwarm {
+  using Params = caravan::Params;
+  using State = caravan::State;
+  using Message = caravan::Message;
+  using Heard = caravan::Heard;
+  static State initial(RobotId id, bool worker, bool root) { return caravan::initial(id, worker, root); }
+  static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) {
+    return caravan::step(params, state, inputs);
+  }
+  static Report report(const State& state) { return caravan::report(state); }
+  static void add_to(Digest& digest, const State& state) { caravan::add_to(digest, state); }
 };
 
 using ConvoySwarm =

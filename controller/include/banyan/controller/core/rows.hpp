@@ -18,6 +18,9 @@ class Rows {
       for (Word left = words_[static_cast<std::size_t>(n)]; left != 0; left &= left - 1)
         visit(n * bits + std::countr_zero(left));
   }
+  [[nodiscard]] bool has(int k) const noexcept {
+    return k >= 0 && (words_[static_cast<std::size_t>(k / bits)] & bit(k)) != 0;
+  }
   void set(int k, bool belongs) noexcept {
     Word& word = words_[static_cast<std::size_t>(k / bits)];
     word = (word & ~bit(k)) | (Word{belongs} << (k % bits));

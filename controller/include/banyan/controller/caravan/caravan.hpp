@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Caravan (docs/caravan.md): one tree over all robots, towed by the workers. Begin with step.cpp; the rooms of a step
+// stand here in its order.
+#pragma once
+
+#include "banyan/controller/caravan/robot.hpp"
+#include "banyan/controller/core/digest.hpp"
+#include "banyan/controller/core/guard.hpp"
+#include "banyan/controller/core/output.hpp"
+
+namespace banyan::caravan {
+
+[[nodiscard]] State initial(RobotId id, bool worker, bool root) noexcept;
+[[nodiscard]] Output<Message> step(const Params& params, State& state, const Inputs<Heard>& inputs) noexcept;
+[[nodiscard]] Report report(const State& state) noexcept;
+void add_to(Digest& digest, const State& state) noexcept;  // every field that can influence a later step
+
+// ---- order.cpp: foundation 1 ----
+
+// Neighbour k is ahead of me: (root, beat) is newer. No robot takes a parent that is not ahead of it, and no pair ever
+// falls back; so no chain of parents can close (RFC 8966, 2.4).
+[[nodiscard]] bool is_ahead(const State& self, const Standing& m) noexcept;
+void keep_up(Robot& robot) noexcept;
+
+// ---- parent.cpp: principle 2 ----
+
+void choose_parent(Robot& robot) noexcept;
+void take_parent(Robot& robot, int k) noexcept;  // the one function that changes a parent
+
+// ---- posts.cpp: principle 3 ----
+
+void call_spares(Robot& robot) noexcept;
+
+// ---- motion.cpp: principle 4 ----
+
+[[nodiscard]] Vec2 goal(const Robot& robot) noexcept;
+void limit_motion(const Robot& robot, Guard& guard) noexcept;
+
+}  // namespace banyan::caravan

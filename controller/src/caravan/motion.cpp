@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// A robot has one goal, which follows from its role, and one filter.
+#include "banyan/controller/caravan/caravan.hpp"
+
+namespace banyan::caravan {
+namespace {
+
+constexpr float tension_start = 0.15F;  // C
+constexpr float tension_width = 0.15F;
+constexpr float follow_spare = 0.25F;
+constexpr float follow_tree = 0.5F;
+
+float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
+
+// A connector follows the children that still have to go on.
+Vec2 tow(const Robot& robot) noexcept {
+  const Params& p = robot.params;
+  int towing = 0;
+  robot.children.for_each([&](int k) { towing += robot.said(k).want > 0 ? 1 : 0; });
+  const float start = robot.is_root() || towing > 1 ? p.late_start : p.pull_start;
+  Vec2 u;
+  robot.children.for_each([&](int k) {
+    if (robot.said(k).want > 0) u += unit(robot.position(k)) * ramp(robot.range(k), start, p.pull_width);
+  });
+  return clamped(u, 1.0F);
+}
+
+// Edges are taut strings: chains become straight, and three meet at 120 degrees.
+Vec2 tension(const Robot& robot) noexcept {
+  Vec2 u;
+  const auto draw = [&](int k) { u += unit(robot.position(k)) * ramp(robot.range(k), tension_start, tension_width); };
+  if (robot.parent >= 0) draw(robot.parent);
+  robot.children.for_each(draw);
+  return u * robot.params.tension_gain;
+}
+
+Vec2 wait(const Robot& robot) noexcept {
+  const Table& table = robot.table();
+  if (robot.self.call.source != nobody) {
+    const int k = least_of(table.size(), not_counted, [&](int j) {
+      const Call& c = robot.said(j).call;
+      return table.age(j) <= 1 && c.source == robot.self.call.source ? static_cast<float>(c.hops) + 0.5F * table.range(j) : not_counted;
+    });
+    if (k >= 0 && robot.said(k).call.hops < robot.self.call.hops) return unit(table.position(k)) * ramp(table.range(k), robot.params.room, 0.05F);
+  }
+  if (robot.parent < 0) return {};
+  const float reach = robot.is_tree(robot.parent) ? follow_tree : follow_spare;
+  return unit(robot.position(robot.parent)) * ramp(robot.range(robot.parent), reach, 0.05F);
+}
+
+}  // namespace
+
+Vec2 goal(const Robot& robot) noexcept {
+  const State& self = robot.self;
+  constexpr float slowing = 0.05F;  // C: the last bit to the target
+  switch (self.role) {
+    case Role::worker:
+      return self.target_known && (robot.parent >= 0 || robot.is_root()) ? clamped(self.target / slowing, 1.0F) : Vec2{};
+    case Role::spare:
+      return wait(robot);
+    default:
+      return tow(robot) + tension(robot);
+  }
+}
+
+void limit_motion(const Robot& robot, Guard& guard) noexcept {
+  const Params& p = robot.params;
+  const Table& table = robot.table();
+  const bool untied = robot.parent < 0 && !robot.is_root();
+  const float room_bodies = 2.2F * p.body_radius;
+  for (int k = 0; k < table.size(); ++k) {
+    const float d = table.range(k);
+    const bool promised = k == robot.parent || k == robot.other || robot.tied.has(k) || untied;
+    if (promised && d > p.longest_edge - 2.0F / p.guard_rate) guard.add(table.position(k), p.longest_edge - table.spread(), p.guard_rate);
+    if (table.age(k) > 0) continue;
+    // Spares make room for all others.
+    const float room = robot.self.role == Role::spare ? std::max(p.room, room_bodies) : room_bodies;
+    if (d < room + 0.1F && d > 0.0F) guard.add_limit(table.position(k) / d, 0.5F * p.guard_rate * (d - room));
+  }
+  if (!p.line_of_sight) return;
+  for (int k = 0; k < table.size(); ++k) {
+    if (!robot.is_tree(k) || k == robot.parent || table.age(k) > robot.liveness()) continue;
+    const int up = table.find(robot.said(k).parent);
+    if (up < 0) continue;
+    const Vec2 near = nearest_on_segment(table.position(k), table.position(up));
+    const float d = norm(near);
+    const float room = 2.0F * p.clearance;
+    if (d < room + 0.1F && d > 0.0F) guard.add_limit(near / d, 0.5F * p.guard_rate * (d - room));
+  }
+}
+
+}  // namespace banyan::caravan

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The parameters.
+#include "banyan/controller/caravan/params.hpp"
+
+namespace banyan::caravan {
+namespace {
+
+// clang-format off
+constexpr Parameter<Params> rows[] = {
+    {{"longest_edge", "G", "C", "no link that matters outgrows it", "Shorter is safer where positions are old or noisy, and takes more robots.", "caravan", 0.5F, 1.0F}, &Params::longest_edge},
+    {{"need_distance", "", "C", "a longer edge is worth a spare", "Shorter takes more robots sooner.", "caravan", 0.2F, 0.95F}, &Params::need_distance},
+    {{"pull_start", "", "C", "a child farther than this tows its parent", "Shorter follows more closely.", "caravan", 0.1F, 0.95F}, &Params::pull_start},
+    {{"late_start", "", "C", "the root and junctions are towed from this length on", "Shorter takes them away from the spares.", "caravan", 0.1F, 0.95F}, &Params::late_start},
+    {{"pull_width", "", "C", "full strength so much later", "Wider is smoother, and lags.", "caravan", 0.01F, 0.5F}, &Params::pull_width},
+    {{"tension_gain", "", "v_max", "edges are strings of this strength", "Larger straightens chains sooner.", "caravan", 0.0F, 2.0F}, &Params::tension_gain},
+    {{"robot_cost", "", "C", "a robot more in the tree costs as much as a way so much longer", "Larger saves robots, and time is lost.", "caravan", 0.0F, 5.0F}, &Params::robot_cost},
+    {{"hysteresis", "", "C", "a new parent has to be so much cheaper", "Smaller changes parents more often.", "caravan", 0.0F, 2.0F}, &Params::hysteresis},
+    {{"clearance", "", "C", "a robot nearer than this to an edge may hide it", "Larger keeps more lines of sight free, and takes more room.", "caravan", 0.0F, 0.3F, true}, &Params::clearance},
+    {{"room", "", "C", "spares keep so far from others", "Larger opens a crowd sooner.", "caravan", 0.0F, 0.5F, true}, &Params::room},
+    {{"liveness_rounds", "I", "rounds", "a robot silent for longer counts as gone", "Longer where packets get lost.", "caravan", 1.0F, 1000.0F}, &Params::liveness_rounds},
+    {{"guard_rate", "", "1/drive", "how soon links are kept from growing", "Larger uses more of their length.", "caravan", 1.0F, 50.0F}, &Params::guard_rate},
+    {{"call_after_rounds", "", "rounds", "an edge calls spares from afar after waiting so long", "Longer keeps spares where they are.", "caravan", 0.0F, 1000.0F}, &Params::call_after_rounds},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const Parameter<Params>> parameters() noexcept { return rows; }
+
+std::string_view fault(const Params& p) noexcept {
+  if (p.need_distance >= p.longest_edge) return "need_distance must be below longest_edge (G)";
+  if (p.pull_start >= p.longest_edge) return "pull_start must be below longest_edge (G)";
+  return {};
+}
+
+}  // namespace banyan::caravan

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// One cost decides who is whose parent: the first choice, repair, insertion, release and merging are one rule.
+#include <array>
+
+#include "banyan/controller/caravan/caravan.hpp"
+
+namespace banyan::caravan {
+namespace {
+
+constexpr float steep = 2.0F;            // what the longest edge costs beyond its length, C
+constexpr float relaxed = 0.90F;         // an edge that need not grow any more is good up to here
+constexpr float costs_silence = 5.0F;    // the parent is hidden, or dead
+constexpr float costs_hidden = 2.0F;     // it soon will be
+constexpr int most_rest = 15;            // rounds
+
+// Up to where an edge may grow it costs its length; then the more, the sooner it will hold somebody back.
+float stretch(const Robot& robot, float d) noexcept {
+  const Params& p = robot.params;
+  const float start = robot.self.role == Role::spare ? 0.6F : robot.self.want > 0 ? 2.0F * p.need_distance - p.longest_edge : relaxed;
+  return steep * std::max(0.0F, (d - start) / (p.longest_edge - start));
+}
+
+// How soon the line to neighbour k will be hidden.
+float hazard(const Robot& robot, int k) noexcept {
+  const Table& table = robot.table();
+  if (!robot.params.line_of_sight) return 0.0F;
+  float nearest = robot.params.clearance;
+  for (int j = 0; j < table.size(); ++j)
+    if (j != k && table.age(j) <= robot.liveness()) nearest = std::min(nearest, distance_to_segment(table.position(j), Vec2{}, table.position(k)));
+  return costs_hidden * (1.0F - nearest / robot.params.clearance);
+}
+
+// Without the hazard.
+float cost(const Robot& robot, int k) noexcept {
+  const Standing& m = robot.said(k);
+  const Params& p = robot.params;
+  const float d = robot.range(k);
+  const bool is_parent = k == robot.parent;
+  float c = d + stretch(robot, d);
+  if (robot.table().age(k) > 2) c += costs_silence;
+  if (robot.self.role == Role::spare) return c + (robot.is_tree(k) ? 0.0F : 1.0F + static_cast<float>(m.hops));
+  c += from_fixed(m.label);
+  if (m.role == Role::spare) c += p.robot_cost * static_cast<float>(m.hops);
+  if (m.role == Role::worker && robot.self.want > 0) c += p.robot_cost;
+  // The parent serves only me, and could go.
+  if (robot.parent >= 0 && (is_parent || m.parent == robot.self.parent)) {
+    const Standing& up = robot.said(robot.parent);
+    if (up.role == Role::connector && up.children <= 1) c += p.robot_cost;
+  }
+  return c;
+}
+
+bool is_candidate(const Robot& robot, int k) noexcept {
+  const Standing& m = robot.said(k);
+  return robot.table().age(k) <= 1 && m.parent != robot.self.id && m.root.id != nobody && (m.parent != nobody || m.role == Role::root) &&
+         robot.range(k) < robot.params.longest_edge - 0.05F;
+}
+
+}  // namespace
+
+void take_parent(Robot& robot, int k) noexcept {
+  State& self = robot.self;
+  if (self.parent != nobody) {
+    self.other = self.parent;
+    self.other_rounds = 0;
+  }
+  robot.other = robot.parent;
+  robot.parent = k;
+  self.parent = robot.table().id(k);
+  self.rests = false;
+}
+
+void choose_parent(Robot& robot) noexcept {
+  State& self = robot.self;
+  const Table& table = robot.table();
+  if (robot.is_root()) {
+    self.parent = nobody;
+    robot.parent = -1;
+    return;
+  }
+  std::array<float, neighbor_capacity> costs;
+  const float present = robot.parent < 0 ? not_counted : cost(robot, robot.parent) + hazard(robot, robot.parent) - robot.params.hysteresis;
+  float best_cost = present;
+  for (int k = 0; k < table.size(); ++k) costs[static_cast<std::size_t>(k)] = k != robot.parent && is_candidate(robot, k) ? cost(robot, k) : not_counted;
+  int best = -1, wish = -1;
+  float wish_cost = present;
+  for (int k = 0; k < table.size(); ++k) {
+    float c = costs[static_cast<std::size_t>(k)];
+    const bool ahead = is_ahead(self, robot.said(k));
+    if (c >= (ahead ? best_cost : wish_cost)) continue;
+    c += hazard(robot, k);
+    if (ahead && c < best_cost) best_cost = c, best = k;
+    if (!ahead && c < wish_cost && !robot.children.has(robot.table().find(robot.said(k).parent))) wish_cost = c, wish = k;
+  }
+  if (best >= 0 && best_cost <= wish_cost) {
+    if (robot.parent >= 0 && robot.said(best).role == Role::spare && self.role != Role::spare) ++self.tally.insertions;
+    take_parent(robot, best);
+    return;
+  }
+  const bool may_rest = self.rests ? self.rest_rounds < most_rest : self.rest_rounds == 0;
+  self.rests = robot.parent >= 0 && wish >= 0 && wish_cost < best_cost && may_rest;
+  if (self.rests) robot.add_elapsed(self.rest_rounds);
+  else {
+    self.rest_rounds = static_cast<std::uint16_t>(std::max(0, self.rest_rounds - robot.elapsed_rounds));
+    if (best >= 0) take_parent(robot, best);
+  }
+}
+
+}  // namespace banyan::caravan

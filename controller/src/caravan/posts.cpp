@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Whoever needs a robot advertises a post; how far the nearest one is, is one gradient.
+#include "banyan/controller/caravan/caravan.hpp"
+
+namespace banyan::caravan {
+namespace {
+
+constexpr std::uint8_t most_hops = 250;
+
+// My edge is worth a spare, and none has been in reach for a while.
+bool has_post(Robot& robot) noexcept {
+  State& self = robot.self;
+  const bool needs = self.role != Role::spare && self.want > 0 && robot.parent >= 0 && robot.range(robot.parent) > robot.params.need_distance;
+  if (!needs) self.unserved_rounds = 0;
+  else robot.add_elapsed(self.unserved_rounds);
+  return self.unserved_rounds > whole(robot.params.call_after_rounds);
+}
+
+}  // namespace
+
+void call_spares(Robot& robot) noexcept {
+  State& self = robot.self;
+  const Table& table = robot.table();
+  if (has_post(robot)) {
+    self.call = {self.id, static_cast<std::uint8_t>(self.call.source == self.id ? self.call.count + 1 : 0), 0};
+    self.call_silence = 0;
+    return;
+  }
+  if (self.call.source == self.id) self.call = {};
+  robot.add_elapsed(self.call_silence);
+  // Of what I hear the nearest source; of one source the newest count.
+  for (int k = 0; k < table.size(); ++k) {
+    const Call& c = robot.said(k).call;
+    if (table.age(k) > 0 || c.source == nobody || c.source == self.id || c.hops >= most_hops) continue;
+    const auto newer = static_cast<std::int8_t>(c.count - self.call.count);
+    const bool same = c.source == self.call.source;
+    const bool nearer = c.hops + 1 < self.call.hops;
+    if (self.call.source != nobody && (same ? newer < 0 || (newer == 0 && !nearer) : !nearer)) continue;
+    if (!same || newer > 0) self.call_silence = 0;
+    self.call = {c.source, c.count, static_cast<std::uint8_t>(c.hops + 1)};
+  }
+  if (self.call_silence > 2 * robot.liveness()) self.call = {};
+}
+
+}  // namespace banyan::caravan

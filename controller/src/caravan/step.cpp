@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// One round of one robot.
+#include "banyan/controller/caravan/caravan.hpp"
+
+namespace banyan::caravan {
+namespace {
+
+void file_heard(Robot& robot, const Inputs<Heard>& inputs) noexcept {
+  State& self = robot.self;
+  Table& table = self.neighbors;
+  const Carry carry = inputs.carry();
+  self.target = carry.point(self.target);
+  self.tally.rejected += inputs.rejected();
+  const auto is_up = [&](RobotId id) { return id == self.parent || id == self.other; };
+  const auto matters = [&](RobotId id, const Standing& m) { return is_up(id) || m.parent == self.id || m.other == self.id; };
+  table.begin(robot.elapsed_rounds, robot.params.way_in_a_round());
+  for (const Heard& h : inputs.heard()) {
+    const Message& m = *h.message;
+    Vec2 before;
+    if (m.id == self.id || m.id == nobody) continue;
+    int k = table.file(m.id, h.position, before, carry);
+    if (k < 0) k = table.enter(m.id, h.position, matters(m.id, m), [&](int j) { return matters(table.id(j), table.standings[static_cast<std::size_t>(j)]); });
+    if (k >= 0) table.standings[static_cast<std::size_t>(k)] = m;
+  }
+  const auto keeps = [&](int k) { return is_up(table.id(k)); };
+  for (int k = 0; (k = table.remove_next(k, carry, robot.liveness(), keeps)) >= 0;) close_gap(table.standings, k, table.size() + 1);
+}
+
+void follow_orders(Robot& robot, const Orders& orders) noexcept {
+  State& self = robot.self;
+  self.is_worker = orders.sent;
+  self.target_known = orders.target.has_value() || (orders.sent && self.target_known);
+  if (orders.target) self.target = *orders.target;
+}
+
+void index_neighbors(Robot& robot) noexcept {
+  State& self = robot.self;
+  const Table& table = robot.table();
+  robot.parent = table.find(self.parent);
+  if (robot.parent < 0) self.parent = nobody;
+  robot.add_elapsed(self.other_rounds);
+  if (self.other_rounds > robot.liveness()) self.other = nobody;
+  robot.other = table.find(self.other);
+  for (int k = 0; k < table.size(); ++k) {
+    const Standing& m = robot.said(k);
+    const bool child = m.parent == self.id;
+    if (child && m.role != Role::spare) robot.children.set(k, true), ++robot.child_count;
+    if (child || m.other == self.id || (m.parent == nobody && m.role != Role::root)) robot.tied.set(k, true);
+  }
+}
+
+// A connector waits a little for a child that may only have been silent.
+void update_role(Robot& robot) noexcept {
+  constexpr int patience = 10;
+  State& self = robot.self;
+  if (robot.child_count > 0) self.childless_rounds = 0;
+  else robot.add_elapsed(self.childless_rounds);
+  const bool needed = robot.child_count > 0 || (self.role == Role::connector && self.childless_rounds <= patience);
+  self.role = robot.is_root() ? Role::root : self.is_worker ? Role::worker : needed ? Role::connector : Role::spare;
+  self.children = static_cast<std::uint8_t>(robot.child_count);
+  float want = 0.0F;
+  const float rests_within = 0.4F * robot.params.arrival_distance;
+  if (self.is_worker && self.target_known && norm(self.target) > rests_within) want = norm(self.target);
+  self.want = to_fixed<std::uint16_t>(want, per_range);
+  robot.children.for_each([&](int k) { self.want = std::max(self.want, robot.said(k).want); });
+  self.hops = 0;
+  if (self.role == Role::spare)
+    self.hops = robot.parent < 0 ? UINT8_MAX : robot.is_tree(robot.parent) ? std::uint8_t{1} : static_cast<std::uint8_t>(std::min(robot.said(robot.parent).hops + 1, 254));
+}
+
+}  // namespace
+
+State initial(RobotId id, bool worker, bool root) noexcept {
+  State self;
+  self.id = id;
+  self.is_worker = worker;
+  if (root) self.root = {1, id};
+  return self;
+}
+
+Output<Message> step(const Params& params, State& state, const Inputs<Heard>& inputs) noexcept {
+  Robot robot{params, state, inputs.obstacles(), inputs.elapsed_ticks()};
+  file_heard(robot, inputs);
+  follow_orders(robot, inputs.orders());
+  index_neighbors(robot);
+  update_role(robot);
+  choose_parent(robot);
+  keep_up(robot);
+  call_spares(robot);
+  const Vec2 wish = clamped(goal(robot), 1.0F);
+  Guard guard;
+  limit_motion(robot, guard);
+  const Vec2 v = clamped(guard.apply(wish * params.speed_gain), 1.0F);
+  return {state, drive(v, guard, params)};
+}
+
+Report report(const State& s) noexcept {
+  Report r{.role = s.role, .serves = s.is_worker ? s.id : nobody, .root = s.root.id, .root_sequence = s.root.number, .phase = Phase::grow_tree,
+           .label = from_fixed(s.label), .want = from_fixed(s.want), .tally = s.tally};
+  if (s.role == Role::spare) r.kept[0] = s.parent;
+  else r.parent = s.parent, r.old_parent = s.other;
+  return r;
+}
+
+void add_to(Digest& digest, const State& s) noexcept {
+  FieldDigest visit{digest};
+  const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };
+  visit_fields(visit, static_cast<const Message&>(s));
+  add(s.is_worker, s.target_known, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds, s.call_silence, s.unserved_rounds, s.target, s.neighbors.size());
+  for (int k = 0; k < s.neighbors.size(); ++k) {
+    add(s.neighbors.id(k), s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k));
+    Message said;
+    static_cast<Standing&>(said) = s.neighbors.standings[static_cast<std::size_t>(k)];
+    visit_fields(visit, said);
+  }
+  s.neighbors.filter().visit(add);
+}
+
+}  // namespace banyan::caravan
