@@ -39,9 +39,12 @@ Vec2 wait(const Robot& robot) noexcept {
   if (robot.self.call.source != nobody) {
     const int k = least_of(table.size(), not_counted, [&](int j) {
       const Call& c = robot.said(j).call;
-      return table.age(j) <= 1 && c.source == robot.self.call.source ? static_cast<float>(c.hops) + 0.5F * table.range(j) : not_counted;
+      return table.age(j) <= 1 && c.source == robot.self.call.source
+                 ? static_cast<float>(c.hops) + 0.5F * table.range(j)
+                 : not_counted;
     });
-    if (k >= 0 && robot.said(k).call.hops < robot.self.call.hops) return unit(table.position(k)) * ramp(table.range(k), robot.params.room, 0.05F);
+    if (k >= 0 && robot.said(k).call.hops < robot.self.call.hops)
+      return unit(table.position(k)) * ramp(table.range(k), robot.params.room, 0.05F);
   }
   if (robot.parent < 0) return {};
   const float reach = robot.is_tree(robot.parent) ? follow_tree : follow_spare;
@@ -55,11 +58,10 @@ Vec2 goal(const Robot& robot) noexcept {
   constexpr float slowing = 0.05F;  // C: the last bit to the target
   switch (self.role) {
     case Role::worker:
-      return self.target_known && (robot.parent >= 0 || robot.is_root()) ? clamped(self.target / slowing, 1.0F) : Vec2{};
-    case Role::spare:
-      return wait(robot);
-    default:
-      return tow(robot) + tension(robot);
+      return self.target_known && (robot.parent >= 0 || robot.is_root()) ? clamped(self.target / slowing, 1.0F)
+                                                                         : Vec2{};
+    case Role::spare: return wait(robot);
+    default: return tow(robot) + tension(robot);
   }
 }
 
@@ -71,7 +73,8 @@ void limit_motion(const Robot& robot, Guard& guard) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
     const bool promised = k == robot.parent || k == robot.other || robot.tied.has(k) || untied;
-    if (promised && d > p.longest_edge - 2.0F / p.guard_rate) guard.add(table.position(k), p.longest_edge - table.spread(), p.guard_rate);
+    if (promised && d > p.longest_edge - 2.0F / p.guard_rate)
+      guard.add(table.position(k), p.longest_edge - table.spread(), p.guard_rate);
     if (table.age(k) > 0) continue;
     // Spares make room for all others.
     const float room = robot.self.role == Role::spare ? std::max(p.room, room_bodies) : room_bodies;

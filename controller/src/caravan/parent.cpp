@@ -7,16 +7,18 @@
 namespace banyan::caravan {
 namespace {
 
-constexpr float steep = 2.0F;            // what the longest edge costs beyond its length, C
-constexpr float relaxed = 0.90F;         // an edge that need not grow any more is good up to here
-constexpr float costs_silence = 5.0F;    // the parent is hidden, or dead
-constexpr float costs_hidden = 2.0F;     // it soon will be
-constexpr int most_rest = 15;            // rounds
+constexpr float steep = 2.0F;          // what the longest edge costs beyond its length, C
+constexpr float relaxed = 0.90F;       // an edge that need not grow any more is good up to here
+constexpr float costs_silence = 5.0F;  // the parent is hidden, or dead
+constexpr float costs_hidden = 2.0F;   // it soon will be
+constexpr int most_rest = 15;          // rounds
 
 // Up to where an edge may grow it costs its length; then the more, the sooner it will hold somebody back.
 float stretch(const Robot& robot, float d) noexcept {
   const Params& p = robot.params;
-  const float start = robot.self.role == Role::spare ? 0.6F : robot.self.want > 0 ? 2.0F * p.need_distance - p.longest_edge : relaxed;
+  const float start = robot.self.role == Role::spare ? 0.6F
+                      : robot.self.want > 0          ? 2.0F * p.need_distance - p.longest_edge
+                                                     : relaxed;
   return steep * std::max(0.0F, (d - start) / (p.longest_edge - start));
 }
 
@@ -26,7 +28,8 @@ float hazard(const Robot& robot, int k) noexcept {
   if (!robot.params.line_of_sight) return 0.0F;
   float nearest = robot.params.clearance;
   for (int j = 0; j < table.size(); ++j)
-    if (j != k && table.age(j) <= robot.liveness()) nearest = std::min(nearest, distance_to_segment(table.position(j), Vec2{}, table.position(k)));
+    if (j != k && table.age(j) <= robot.liveness())
+      nearest = std::min(nearest, distance_to_segment(table.position(j), Vec2{}, table.position(k)));
   return costs_hidden * (1.0F - nearest / robot.params.clearance);
 }
 
@@ -52,8 +55,8 @@ float cost(const Robot& robot, int k) noexcept {
 
 bool is_candidate(const Robot& robot, int k) noexcept {
   const Standing& m = robot.said(k);
-  return robot.table().age(k) <= 1 && m.parent != robot.self.id && m.root.id != nobody && (m.parent != nobody || m.role == Role::root) &&
-         robot.range(k) < robot.params.longest_edge - 0.05F;
+  return robot.table().age(k) <= 1 && m.parent != robot.self.id && m.root.id != nobody &&
+         (m.parent != nobody || m.role == Role::root) && robot.range(k) < robot.params.longest_edge - 0.05F;
 }
 
 }  // namespace
@@ -79,9 +82,12 @@ void choose_parent(Robot& robot) noexcept {
     return;
   }
   std::array<float, neighbor_capacity> costs;
-  const float present = robot.parent < 0 ? not_counted : cost(robot, robot.parent) + hazard(robot, robot.parent) - robot.params.hysteresis;
+  const float present = robot.parent < 0
+                            ? not_counted
+                            : cost(robot, robot.parent) + hazard(robot, robot.parent) - robot.params.hysteresis;
   float best_cost = present;
-  for (int k = 0; k < table.size(); ++k) costs[static_cast<std::size_t>(k)] = k != robot.parent && is_candidate(robot, k) ? cost(robot, k) : not_counted;
+  for (int k = 0; k < table.size(); ++k)
+    costs[static_cast<std::size_t>(k)] = k != robot.parent && is_candidate(robot, k) ? cost(robot, k) : not_counted;
   int best = -1, wish = -1;
   float wish_cost = present;
   for (int k = 0; k < table.size(); ++k) {
@@ -90,7 +96,8 @@ void choose_parent(Robot& robot) noexcept {
     if (c >= (ahead ? best_cost : wish_cost)) continue;
     c += hazard(robot, k);
     if (ahead && c < best_cost) best_cost = c, best = k;
-    if (!ahead && c < wish_cost && !robot.children.has(robot.table().find(robot.said(k).parent))) wish_cost = c, wish = k;
+    if (!ahead && c < wish_cost && !robot.children.has(robot.table().find(robot.said(k).parent)))
+      wish_cost = c, wish = k;
   }
   if (best >= 0 && best_cost <= wish_cost) {
     if (robot.parent >= 0 && robot.said(best).role == Role::spare && self.role != Role::spare) ++self.tally.insertions;

@@ -12,18 +12,23 @@ void file_heard(Robot& robot, const Inputs<Heard>& inputs) noexcept {
   self.target = carry.point(self.target);
   self.tally.rejected += inputs.rejected();
   const auto is_up = [&](RobotId id) { return id == self.parent || id == self.other; };
-  const auto matters = [&](RobotId id, const Standing& m) { return is_up(id) || m.parent == self.id || m.other == self.id; };
+  const auto matters = [&](RobotId id, const Standing& m) {
+    return is_up(id) || m.parent == self.id || m.other == self.id;
+  };
   table.begin(robot.elapsed_rounds, robot.params.way_in_a_round());
   for (const Heard& h : inputs.heard()) {
     const Message& m = *h.message;
     Vec2 before;
     if (m.id == self.id || m.id == nobody) continue;
     int k = table.file(m.id, h.position, before, carry);
-    if (k < 0) k = table.enter(m.id, h.position, matters(m.id, m), [&](int j) { return matters(table.id(j), table.standings[static_cast<std::size_t>(j)]); });
+    if (k < 0)
+      k = table.enter(m.id, h.position, matters(m.id, m),
+                      [&](int j) { return matters(table.id(j), table.standings[static_cast<std::size_t>(j)]); });
     if (k >= 0) table.standings[static_cast<std::size_t>(k)] = m;
   }
   const auto keeps = [&](int k) { return is_up(table.id(k)); };
-  for (int k = 0; (k = table.remove_next(k, carry, robot.liveness(), keeps)) >= 0;) close_gap(table.standings, k, table.size() + 1);
+  for (int k = 0; (k = table.remove_next(k, carry, robot.liveness(), keeps)) >= 0;)
+    close_gap(table.standings, k, table.size() + 1);
 }
 
 void follow_orders(Robot& robot, const Orders& orders) noexcept {
@@ -65,7 +70,10 @@ void update_role(Robot& robot) noexcept {
   robot.children.for_each([&](int k) { self.want = std::max(self.want, robot.said(k).want); });
   self.hops = 0;
   if (self.role == Role::spare)
-    self.hops = robot.parent < 0 ? UINT8_MAX : robot.is_tree(robot.parent) ? std::uint8_t{1} : static_cast<std::uint8_t>(std::min(robot.said(robot.parent).hops + 1, 254));
+    self.hops = robot.parent < 0 ? UINT8_MAX
+                : robot.is_tree(robot.parent)
+                    ? std::uint8_t{1}
+                    : static_cast<std::uint8_t>(std::min(robot.said(robot.parent).hops + 1, 254));
 }
 
 }  // namespace
@@ -95,8 +103,14 @@ Output<Message> step(const Params& params, State& state, const Inputs<Heard>& in
 }
 
 Report report(const State& s) noexcept {
-  Report r{.role = s.role, .serves = s.is_worker ? s.id : nobody, .root = s.root.id, .root_sequence = s.root.number, .phase = Phase::grow_tree,
-           .label = from_fixed(s.label), .want = from_fixed(s.want), .tally = s.tally};
+  Report r{.role = s.role,
+           .serves = s.is_worker ? s.id : nobody,
+           .root = s.root.id,
+           .root_sequence = s.root.number,
+           .phase = Phase::grow_tree,
+           .label = from_fixed(s.label),
+           .want = from_fixed(s.want),
+           .tally = s.tally};
   if (s.role == Role::spare) r.kept[0] = s.parent;
   else r.parent = s.parent, r.old_parent = s.other;
   return r;
@@ -106,7 +120,8 @@ void add_to(Digest& digest, const State& s) noexcept {
   FieldDigest visit{digest};
   const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };
   visit_fields(visit, static_cast<const Message&>(s));
-  add(s.is_worker, s.target_known, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds, s.call_silence, s.unserved_rounds, s.target, s.neighbors.size());
+  add(s.is_worker, s.target_known, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds, s.call_silence,
+      s.unserved_rounds, s.target, s.neighbors.size());
   for (int k = 0; k < s.neighbors.size(); ++k) {
     add(s.neighbors.id(k), s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k));
     Message said;

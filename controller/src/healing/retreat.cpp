@@ -41,8 +41,7 @@ int way_home(const HealingRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   return least_of(table.size(), not_counted, [&](int k) {
     const TreeStanding& m = table.message(k);
-    const bool knows = table.alive(k) && m.tree_hops != unreachable &&
-                       m.parent != robot.self.id;
+    const bool knows = table.alive(k) && m.tree_hops != unreachable && m.parent != robot.self.id;
     return knows ? table.range(k) : not_counted;
   });
 }

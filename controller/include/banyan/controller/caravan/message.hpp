@@ -23,9 +23,9 @@ constexpr bool is_newer(Root a, Root b) noexcept {
 
 // The nearest open post, as far as a robot has heard (principle 3).
 struct Call {
-  RobotId source = nobody;   // the robot that advertises it; nobody: there is none
-  std::uint8_t count = 0;    // of that robot, a round at a time
-  std::uint8_t hops = 0;     // from it
+  RobotId source = nobody;  // the robot that advertises it; nobody: there is none
+  std::uint8_t count = 0;   // of that robot, a round at a time
+  std::uint8_t hops = 0;    // from it
 
   friend bool operator==(const Call&, const Call&) = default;
 };
@@ -33,8 +33,8 @@ struct Call {
 // What neighbours remember of a robot.
 struct Standing {
   Role role = Role::spare;
-  RobotId parent = nobody;    // the upper end of the link that ties it to the others
-  RobotId other = nobody;     // the parent that it had, until that promise has ended
+  RobotId parent = nobody;  // the upper end of the link that ties it to the others
+  RobotId other = nobody;   // the parent that it had, until that promise has ended
   Root root;
   Serial beat = 0;            // its place in the order: the root's count of rounds, less one a hop at least
   std::uint16_t label = 0;    // length of its way to the root, C / 256

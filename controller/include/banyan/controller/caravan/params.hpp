@@ -11,17 +11,17 @@
 namespace banyan::caravan {
 
 struct Params : Machine {
-  float longest_edge = 0.95F;     // G: no link that matters outgrows it
-  float need_distance = 0.825F;   // a longer edge is worth a spare
-  float pull_start = 0.675F;      // a child farther than this tows its parent
-  float late_start = 0.90F;       // the root and junctions only from here on
+  float longest_edge = 0.95F;    // G: no link that matters outgrows it
+  float need_distance = 0.825F;  // a longer edge is worth a spare
+  float pull_start = 0.675F;     // a child farther than this tows its parent
+  float late_start = 0.90F;      // the root and junctions only from here on
   float pull_width = 0.15F;
   float tension_gain = 0.4F;
-  float robot_cost = 1.0F;        // a robot more in the tree costs as much as a way so much longer
-  float hysteresis = 0.2F;        // a new parent has to be so much cheaper
-  float clearance = 0.08F;        // a robot nearer than this to an edge may hide it
-  float room = 0.14F;             // spares keep so far from others
-  float liveness_rounds = 5.0F;   // I
+  float robot_cost = 1.0F;       // a robot more in the tree costs as much as a way so much longer
+  float hysteresis = 0.2F;       // a new parent has to be so much cheaper
+  float clearance = 0.08F;       // a robot nearer than this to an edge may hide it
+  float room = 0.14F;            // spares keep so far from others
+  float liveness_rounds = 5.0F;  // I
   float guard_rate = 20.0F;
   float call_after_rounds = 20.0F;
   float arrival_distance = 0.1F;  // the mission's tolerance

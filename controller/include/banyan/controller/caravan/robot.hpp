@@ -22,13 +22,15 @@ struct Robot {
   int elapsed_rounds;
   int parent = -1;  // their entries in the table
   int other = -1;
-  Rows children{};    // robots of the tree that name me as their parent
+  Rows children{};  // robots of the tree that name me as their parent
   int child_count = 0;
-  Rows tied{};        // all that name me as parent or old parent, or nobody
+  Rows tied{};  // all that name me as parent or old parent, or nobody
 
   [[nodiscard]] Table& table() noexcept { return self.neighbors; }
   [[nodiscard]] const Table& table() const noexcept { return self.neighbors; }
-  [[nodiscard]] const Standing& said(int k) const noexcept { return self.neighbors.standings[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] const Standing& said(int k) const noexcept {
+    return self.neighbors.standings[static_cast<std::size_t>(k)];
+  }
   [[nodiscard]] Vec2 position(int k) const noexcept { return self.neighbors.position(k); }
   [[nodiscard]] float range(int k) const noexcept { return self.neighbors.range(k); }
   [[nodiscard]] bool is_root() const noexcept { return self.root.id == self.id; }
