@@ -7,7 +7,8 @@ namespace {
 
 constexpr float tension_start = 0.15F;  // C
 constexpr float tension_width = 0.15F;
-constexpr float follow_spare = 0.25F;
+constexpr float slowing = 0.05F;  // the last bit to a place
+constexpr float follow_spare = 0.25F;  // a spare stays so near to its parent
 constexpr float follow_tree = 0.5F;
 
 float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
@@ -34,28 +35,40 @@ Vec2 tension(const Robot& robot) noexcept {
   return u * robot.params.tension_gain;
 }
 
+// Where a spare that hears the call from neighbour k is to go: into the edge, if it hears both ends of it; past k, in the
+// direction in which its branch leads; else to k.
+Vec2 place_for(const Robot& robot, int k) noexcept {
+  constexpr float past = 0.5F;  // C
+  const Table& table = robot.table();
+  const Vec2 at = table.position(k);
+  const int up = robot.is_tree(k) ? table.find(robot.said(k).parent) : -1;
+  if (up < 0) return at;
+  const Vec2 edge = table.position(up) - at;
+  return robot.said(k).call.hops == 0 ? at + edge * 0.5F : at - unit(edge) * past;
+}
+
 Vec2 wait(const Robot& robot) noexcept {
+  const Params& p = robot.params;
   const Table& table = robot.table();
   if (robot.self.call.source != nobody) {
     const int k = least_of(table.size(), not_counted, [&](int j) {
       const Call& c = robot.said(j).call;
-      return table.age(j) <= 1 && c.source == robot.self.call.source
-                 ? static_cast<float>(c.hops) + 0.5F * table.range(j)
-                 : not_counted;
+      const bool leads = table.age(j) <= 1 && c.source == robot.self.call.source && c.hops < robot.self.call.hops;
+      return leads ? static_cast<float>(c.hops) + 0.5F * table.range(j) : not_counted;
     });
-    if (k >= 0 && robot.said(k).call.hops < robot.self.call.hops)
-      return unit(table.position(k)) * ramp(table.range(k), robot.params.room, 0.05F);
+    if (k >= 0) return clamped(place_for(robot, k) / slowing, 1.0F);
   }
   if (robot.parent < 0) return {};
   const float reach = robot.is_tree(robot.parent) ? follow_tree : follow_spare;
-  return unit(robot.position(robot.parent)) * ramp(robot.range(robot.parent), reach, 0.05F);
+  return unit(robot.position(robot.parent)) * ramp(robot.range(robot.parent), reach, p.pull_width);
 }
 
 }  // namespace
 
 Vec2 goal(const Robot& robot) noexcept {
   const State& self = robot.self;
-  constexpr float slowing = 0.05F;  // C: the last bit to the target
+  // Its upper end is lost: it goes where that was.
+  if (robot.parent >= 0 && robot.is_lost(robot.parent)) return clamped(robot.position(robot.parent) / slowing, 1.0F);
   switch (self.role) {
     case Role::worker:
       return self.target_known && (robot.parent >= 0 || robot.is_root()) ? clamped(self.target / slowing, 1.0F)
@@ -68,13 +81,11 @@ Vec2 goal(const Robot& robot) noexcept {
 void limit_motion(const Robot& robot, Guard& guard) noexcept {
   const Params& p = robot.params;
   const Table& table = robot.table();
-  const bool untied = robot.parent < 0 && !robot.is_root();
   const float room_bodies = 2.2F * p.body_radius;
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
-    const bool promised = k == robot.parent || k == robot.other || robot.tied.has(k) || untied;
-    if (promised && d > p.longest_edge - 2.0F / p.guard_rate)
-      guard.add(table.position(k), p.longest_edge - table.spread(), p.guard_rate);
+    const float longest = p.longest_edge - table.spread() - strayed(robot, k);
+    if (d > longest - 2.0F / p.guard_rate && is_promised(robot, k)) guard.add(table.position(k), longest, p.guard_rate);
     if (table.age(k) > 0) continue;
     // Spares make room for all others.
     const float room = robot.self.role == Role::spare ? std::max(p.room, room_bodies) : room_bodies;
@@ -82,7 +93,7 @@ void limit_motion(const Robot& robot, Guard& guard) noexcept {
   }
   if (!p.line_of_sight) return;
   for (int k = 0; k < table.size(); ++k) {
-    if (!robot.is_tree(k) || k == robot.parent || table.age(k) > robot.liveness()) continue;
+    if (!robot.is_tree(k) || k == robot.parent || robot.is_lost(k)) continue;
     const int up = table.find(robot.said(k).parent);
     if (up < 0) continue;
     const Vec2 near = nearest_on_segment(table.position(k), table.position(up));

@@ -18,6 +18,7 @@ constexpr Parameter<Params> rows[] = {
     {{"clearance", "", "C", "a robot nearer than this to an edge may hide it", "Larger keeps more lines of sight free, and takes more room.", "caravan", 0.0F, 0.3F, true}, &Params::clearance},
     {{"room", "", "C", "spares keep so far from others", "Larger opens a crowd sooner.", "caravan", 0.0F, 0.5F, true}, &Params::room},
     {{"liveness_rounds", "I", "rounds", "a robot silent for longer counts as gone", "Longer where packets get lost.", "caravan", 1.0F, 1000.0F}, &Params::liveness_rounds},
+    {{"pursue_drives", "", "drives", "the ends of a torn edge look for each other for so long", "Longer where ways are long.", "caravan", 0.0F, 100.0F}, &Params::pursue_drives},
     {{"guard_rate", "", "1/drive", "how soon links are kept from growing", "Larger uses more of their length.", "caravan", 1.0F, 50.0F}, &Params::guard_rate},
     {{"call_after_rounds", "", "rounds", "an edge calls spares from afar after waiting so long", "Longer keeps spares where they are.", "caravan", 0.0F, 1000.0F}, &Params::call_after_rounds},
 };

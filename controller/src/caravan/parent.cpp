@@ -28,7 +28,7 @@ float hazard(const Robot& robot, int k) noexcept {
   if (!robot.params.line_of_sight) return 0.0F;
   float nearest = robot.params.clearance;
   for (int j = 0; j < table.size(); ++j)
-    if (j != k && table.age(j) <= robot.liveness())
+    if (j != k && !robot.is_lost(j))
       nearest = std::min(nearest, distance_to_segment(table.position(j), Vec2{}, table.position(k)));
   return costs_hidden * (1.0F - nearest / robot.params.clearance);
 }
@@ -40,7 +40,7 @@ float cost(const Robot& robot, int k) noexcept {
   const float d = robot.range(k);
   const bool is_parent = k == robot.parent;
   float c = d + stretch(robot, d);
-  if (robot.table().age(k) > 2) c += costs_silence;
+  if (robot.table().age(k) > robot.hidden_after()) c += costs_silence;
   if (robot.self.role == Role::spare) return c + (robot.is_tree(k) ? 0.0F : 1.0F + static_cast<float>(m.hops));
   c += from_fixed(m.label);
   if (m.role == Role::spare) c += p.robot_cost * static_cast<float>(m.hops);

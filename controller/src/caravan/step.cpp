@@ -26,7 +26,7 @@ void file_heard(Robot& robot, const Inputs<Heard>& inputs) noexcept {
                       [&](int j) { return matters(table.id(j), table.standings[static_cast<std::size_t>(j)]); });
     if (k >= 0) table.standings[static_cast<std::size_t>(k)] = m;
   }
-  const auto keeps = [&](int k) { return is_up(table.id(k)); };
+  const auto keeps = [&](int k) { return table.id(k) == self.parent || is_promised(robot, k); };
   for (int k = 0; (k = table.remove_next(k, carry, robot.liveness(), keeps)) >= 0;)
     close_gap(table.standings, k, table.size() + 1);
 }
@@ -44,13 +44,11 @@ void index_neighbors(Robot& robot) noexcept {
   robot.parent = table.find(self.parent);
   if (robot.parent < 0) self.parent = nobody;
   robot.add_elapsed(self.other_rounds);
-  if (self.other_rounds > robot.liveness()) self.other = nobody;
+  if (self.other_rounds > robot.liveness()) self.other = nobody;  // agreed: both ends have had time to hear it
   robot.other = table.find(self.other);
   for (int k = 0; k < table.size(); ++k) {
     const Standing& m = robot.said(k);
-    const bool child = m.parent == self.id;
-    if (child && m.role != Role::spare) robot.children.set(k, true), ++robot.child_count;
-    if (child || m.other == self.id || (m.parent == nobody && m.role != Role::root)) robot.tied.set(k, true);
+    if (m.parent == self.id && m.role != Role::spare) robot.children.set(k, true), ++robot.child_count;
   }
 }
 
@@ -89,6 +87,7 @@ State initial(RobotId id, bool worker, bool root) noexcept {
 Output<Message> step(const Params& params, State& state, const Inputs<Heard>& inputs) noexcept {
   Robot robot{params, state, inputs.obstacles(), inputs.elapsed_ticks()};
   file_heard(robot, inputs);
+  measure_silence(robot);
   follow_orders(robot, inputs.orders());
   index_neighbors(robot);
   update_role(robot);
@@ -121,7 +120,7 @@ void add_to(Digest& digest, const State& s) noexcept {
   const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };
   visit_fields(visit, static_cast<const Message&>(s));
   add(s.is_worker, s.target_known, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds, s.call_silence,
-      s.unserved_rounds, s.target, s.neighbors.size());
+      s.unserved_rounds, s.expected_packets, s.missed_packets, s.loss_rounds, s.longest_silence, s.round, s.target, s.neighbors.size());
   for (int k = 0; k < s.neighbors.size(); ++k) {
     add(s.neighbors.id(k), s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k));
     Message said;

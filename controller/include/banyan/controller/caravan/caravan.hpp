@@ -15,6 +15,14 @@ namespace banyan::caravan {
 [[nodiscard]] Report report(const State& state) noexcept;
 void add_to(Digest& digest, const State& state) noexcept;  // every field that can influence a later step
 
+// ---- links.cpp: principle 1 ----
+
+void measure_silence(Robot& robot) noexcept;
+// How far neighbour k may have driven since it was heard, C; 0 where silence is no loss.
+[[nodiscard]] float strayed(const Robot& robot, int k) noexcept;
+// The longest that the link to it may be; it is a promise.
+[[nodiscard]] bool is_promised(const Robot& robot, int k) noexcept;
+
 // ---- order.cpp: foundation 1 ----
 
 // Neighbour k is ahead of me: (root, beat) is newer. No robot takes a parent that is not ahead of it, and no pair ever

@@ -22,6 +22,7 @@ struct Params : Machine {
   float clearance = 0.08F;       // a robot nearer than this to an edge may hide it
   float room = 0.14F;            // spares keep so far from others
   float liveness_rounds = 5.0F;  // I
+  float pursue_drives = 1.2F;     // the ends of a torn edge look for each other for so long
   float guard_rate = 20.0F;
   float call_after_rounds = 20.0F;
   float arrival_distance = 0.1F;  // the mission's tolerance

@@ -24,7 +24,6 @@ struct Robot {
   int other = -1;
   Rows children{};  // robots of the tree that name me as their parent
   int child_count = 0;
-  Rows tied{};  // all that name me as parent or old parent, or nobody
 
   [[nodiscard]] Table& table() noexcept { return self.neighbors; }
   [[nodiscard]] const Table& table() const noexcept { return self.neighbors; }
@@ -35,8 +34,15 @@ struct Robot {
   [[nodiscard]] float range(int k) const noexcept { return self.neighbors.range(k); }
   [[nodiscard]] bool is_root() const noexcept { return self.root.id == self.id; }
   [[nodiscard]] bool is_tree(int k) const noexcept { return said(k).role != Role::spare; }
-  // So long a robot that is there may be silent by chance.
-  [[nodiscard]] int liveness() const noexcept { return whole(params.liveness_rounds); }
+  // Two clocks for silence. A robot silent for longer than this is not believed any more, and is replaced.
+  [[nodiscard]] int liveness() const noexcept { return std::max<int>(whole(params.liveness_rounds), self.loss_rounds); }
+  // For so long I stay near a silent robot to which I have promised it.
+  [[nodiscard]] int lease() const noexcept { return std::max(liveness(), 2 * self.longest_silence); }
+  // And in the tree, where the other end may have gone to look for me, or is to be met where it died.
+  [[nodiscard]] int tree_lease() const noexcept { return std::max(lease(), params.rounds(params.pursue_drives)); }
+  // A silence that lost packets do not explain: something stands between us.
+  [[nodiscard]] int hidden_after() const noexcept { return std::max(2, self.loss_rounds * 2 / 5); }
+  [[nodiscard]] bool is_lost(int k) const noexcept { return self.neighbors.age(k) > liveness(); }
   void add_elapsed(std::uint16_t& rounds) const noexcept {
     rounds = static_cast<std::uint16_t>(std::min(rounds + elapsed_rounds, UINT16_MAX));
   }

@@ -20,6 +20,11 @@ struct State : Message {
   std::uint16_t childless_rounds = 0;
   std::uint16_t call_silence = 0;  // since the count of the call advanced
   std::uint16_t unserved_rounds = 0;
+  float expected_packets = 0.0F;   // that were to be heard of late, fading
+  float missed_packets = 0.0F;     // and of them those that were not
+  std::uint16_t loss_rounds = 0;   // for so long a robot that is there may be silent by chance; 0: no packets get lost
+  std::uint8_t longest_silence = 0;  // that ended lately; 0: no packets get lost
+  std::uint16_t round = 0;
   Vec2 target;  // C, own frame
   Tally tally;  // never read
   Table neighbors;
