@@ -63,43 +63,61 @@ Vec2 wait(const Robot& robot) noexcept {
   return unit(robot.position(robot.parent)) * ramp(robot.range(robot.parent), reach, p.pull_width);
 }
 
+// Room for others: spares and robots of the tree that are near, and the lines of sight of their edges.
+Vec2 make_room(const Robot& robot, float width) noexcept {
+  constexpr float most = 20.0F;  // on a line; not without limit
+  const Params& p = robot.params;
+  const Table& table = robot.table();
+  Vec2 u;
+  const auto push = [&](Vec2 near, float reach, float gain, Vec2 aside) {
+    const float d = norm(near);
+    if (d < reach) u += (d > 1e-4F ? near / -d : aside) * (gain * std::min(reach / std::max(d, 1e-4F) - 1.0F, most));
+  };
+  for (int k = 0; k < table.size(); ++k) {
+    if (robot.is_lost(k)) continue;
+    const Standing& m = robot.said(k);
+    const bool linked = k == robot.parent || m.parent == robot.self.id;
+    if (!(linked && robot.is_tree(k) && robot.self.role != Role::spare)) push(table.position(k), m.role == Role::spare ? p.room : p.room_tree, p.room_gain, {});
+    if (!p.line_of_sight || !robot.is_tree(k) || k == robot.parent || m.parent == robot.self.id) continue;
+    const int up = table.find(m.parent);
+    if (up < 0) continue;
+    const Vec2 along = unit(table.position(up) - table.position(k));
+    push(nearest_on_segment(table.position(k), table.position(up)), width, p.sight_gain, left_of(along));
+  }
+  return u;
+}
+
 }  // namespace
 
 Vec2 goal(const Robot& robot) noexcept {
   const State& self = robot.self;
+  const Params& p = robot.params;
+  const float wide = 2.0F * p.clearance;  // robots under way pass lines of sight so far off
   // Its upper end is lost: it goes where that was.
-  if (robot.parent >= 0 && robot.is_lost(robot.parent)) return clamped(robot.position(robot.parent) / slowing, 1.0F);
+  if (robot.parent >= 0 && robot.is_lost(robot.parent)) return clamped(robot.position(robot.parent) / slowing, 1.0F) + make_room(robot, wide);
   switch (self.role) {
-    case Role::worker:
-      return self.target_known && (robot.parent >= 0 || robot.is_root()) ? clamped(self.target / slowing, 1.0F)
-                                                                         : Vec2{};
-    case Role::spare: return wait(robot);
-    default: return tow(robot) + tension(robot);
+    case Role::worker: {
+      const Vec2 way = self.target_known && robot.parent >= 0 ? clamped(self.target / slowing, 1.0F) : Vec2{};
+      return way + make_room(robot, 0.0F);
+    }
+    case Role::spare: {
+      const Vec2 way = wait(robot);
+      return way + make_room(robot, norm(way) > 0.0F ? wide : p.sight_width);
+    }
+    default:
+      return tow(robot) + tension(robot) + make_room(robot, p.sight_width);
   }
 }
 
 void limit_motion(const Robot& robot, Guard& guard) noexcept {
   const Params& p = robot.params;
   const Table& table = robot.table();
-  const float room_bodies = 2.2F * p.body_radius;
+  const float touching = 2.0F * p.body_radius;
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
     const float longest = p.longest_edge - table.spread() - strayed(robot, k);
     if (d > longest - 2.0F / p.guard_rate && is_promised(robot, k)) guard.add(table.position(k), longest, p.guard_rate);
-    if (table.age(k) > 0) continue;
-    // Spares make room for all others.
-    const float room = robot.self.role == Role::spare ? std::max(p.room, room_bodies) : room_bodies;
-    if (d < room + 0.1F && d > 0.0F) guard.add_limit(table.position(k) / d, 0.5F * p.guard_rate * (d - room));
-  }
-  if (!p.line_of_sight) return;
-  for (int k = 0; k < table.size(); ++k) {
-    if (!robot.is_tree(k) || k == robot.parent || robot.is_lost(k)) continue;
-    const int up = table.find(robot.said(k).parent);
-    if (up < 0) continue;
-    const Vec2 near = nearest_on_segment(table.position(k), table.position(up));
-    const float d = norm(near);
-    const float room = 2.0F * p.clearance;
-    if (d < room + 0.1F && d > 0.0F) guard.add_limit(near / d, 0.5F * p.guard_rate * (d - room));
+    if (table.age(k) == 0 && d < touching + 0.05F && d > 0.0F) guard.add_limit(table.position(k) / d, std::max(0.0F, d - touching) * p.guard_rate);
   }
 }
 

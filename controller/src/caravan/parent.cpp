@@ -7,7 +7,7 @@
 namespace banyan::caravan {
 namespace {
 
-constexpr float steep = 2.0F;          // what the longest edge costs beyond its length, C
+constexpr float steep = 3.0F;          // what the longest edge costs beyond its length, C
 constexpr float relaxed = 0.90F;       // an edge that need not grow any more is good up to here
 constexpr float costs_silence = 5.0F;  // the parent is hidden, or dead
 constexpr float costs_hidden = 2.0F;   // it soon will be
@@ -17,7 +17,7 @@ constexpr int most_rest = 15;          // rounds
 float stretch(const Robot& robot, float d) noexcept {
   const Params& p = robot.params;
   const float start = robot.self.role == Role::spare ? 0.6F
-                      : robot.self.want > 0          ? 2.0F * p.need_distance - p.longest_edge
+                      : robot.self.want > 0          ? p.need_distance - 0.075F
                                                      : relaxed;
   return steep * std::max(0.0F, (d - start) / (p.longest_edge - start));
 }
@@ -53,10 +53,14 @@ float cost(const Robot& robot, int k) noexcept {
   return c;
 }
 
+// It is heard, tied to a root, not below me as far as I know, and in reach; without a parent I take what there is.
 bool is_candidate(const Robot& robot, int k) noexcept {
+  constexpr float margin = 0.05F;  // C: a longer edge would be at its end at once
   const Standing& m = robot.said(k);
-  return robot.table().age(k) <= 1 && m.parent != robot.self.id && m.root.id != nobody &&
-         (m.parent != nobody || m.role == Role::root) && robot.range(k) < robot.params.longest_edge - 0.05F;
+  const bool bound = m.root.id != nobody && (m.parent != nobody || m.role == Role::root);
+  const bool free = robot.parent < 0 || robot.is_lost(robot.parent);
+  return robot.table().age(k) <= 1 && bound && m.parent != robot.self.id &&
+         (free || robot.range(k) < robot.params.longest_edge - margin);
 }
 
 }  // namespace

@@ -20,7 +20,11 @@ struct Params : Machine {
   float robot_cost = 1.0F;       // a robot more in the tree costs as much as a way so much longer
   float hysteresis = 0.2F;       // a new parent has to be so much cheaper
   float clearance = 0.08F;       // a robot nearer than this to an edge may hide it
-  float room = 0.14F;            // spares keep so far from others
+  float room = 0.14F;         // all keep so far from spares,
+  float room_tree = 0.18F;    // and so far from robots of the tree
+  float room_gain = 0.5F;
+  float sight_width = 0.35F;  // and so far from the edges of others
+  float sight_gain = 0.5F;
   float liveness_rounds = 5.0F;  // I
   float pursue_drives = 1.2F;     // the ends of a torn edge look for each other for so long
   float guard_rate = 20.0F;
