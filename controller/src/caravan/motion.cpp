@@ -105,7 +105,7 @@ Vec2 goal(const Robot& robot) noexcept {
       return way + make_room(robot, norm(way) > 0.0F ? wide : p.sight_width);
     }
     default:
-      return tow(robot) + tension(robot) + make_room(robot, p.sight_width);
+      return tow(robot) + (robot.is_root() && self.want > 0 ? Vec2{} : tension(robot)) + make_room(robot, p.sight_width);
   }
 }
 

@@ -8,6 +8,8 @@ namespace banyan::caravan {
 namespace {
 
 constexpr float steep = 3.0F;          // what the longest edge costs beyond its length, C
+constexpr float loose = 0.5F;             // a link of a spare, C
+constexpr float soon = 0.075F;
 constexpr float relaxed = 0.90F;       // an edge that need not grow any more is good up to here
 constexpr float costs_silence = 5.0F;  // the parent is hidden, or dead
 constexpr float costs_hidden = 2.0F;   // it soon will be
@@ -16,9 +18,7 @@ constexpr int most_rest = 15;          // rounds
 // Up to where an edge may grow it costs its length; then the more, the sooner it will hold somebody back.
 float stretch(const Robot& robot, float d) noexcept {
   const Params& p = robot.params;
-  const float start = robot.self.role == Role::spare ? 0.6F
-                      : robot.self.want > 0          ? p.need_distance - 0.075F
-                                                     : relaxed;
+  const float start = robot.self.role == Role::spare ? loose : robot.self.want > 0 ? p.need_distance - soon : relaxed;
   return steep * std::max(0.0F, (d - start) / (p.longest_edge - start));
 }
 
@@ -41,7 +41,6 @@ float cost(const Robot& robot, int k) noexcept {
   const bool is_parent = k == robot.parent;
   float c = d + stretch(robot, d);
   if (robot.table().age(k) > robot.hidden_after()) c += costs_silence;
-  if (robot.self.role == Role::spare) return c + (robot.is_tree(k) ? 0.0F : 1.0F + static_cast<float>(m.hops));
   c += from_fixed(m.label);
   if (m.role == Role::spare) c += p.robot_cost * static_cast<float>(m.hops);
   if (m.role == Role::worker && robot.self.want > 0) c += p.robot_cost;
