@@ -18,7 +18,7 @@ constexpr int most_rest = 15;          // rounds
 // Up to where an edge may grow it costs its length; then the more, the sooner it will hold somebody back.
 float stretch(const Robot& robot, float d) noexcept {
   const Params& p = robot.params;
-  const float start = robot.self.role == Role::spare ? loose : robot.self.want > 0 ? p.need_distance - soon : relaxed;
+  const float start = robot.self.role == Role::spare ? loose : robot.is_wanted() ? p.need_distance - soon : relaxed;
   return steep * std::max(0.0F, (d - start) / (p.longest_edge - start));
 }
 

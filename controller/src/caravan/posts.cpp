@@ -10,7 +10,7 @@ constexpr std::uint8_t most_hops = 250;
 // My edge is worth a spare, and none has been in reach for a while.
 bool has_post(Robot& robot) noexcept {
   State& self = robot.self;
-  const bool needs = self.role != Role::spare && self.want > 0 && robot.parent >= 0 &&
+  const bool needs = self.role != Role::spare && robot.parent >= 0 && robot.is_wanted() &&
                      robot.range(robot.parent) > robot.params.need_distance;
   if (!needs) self.unserved_rounds = 0;
   else robot.add_elapsed(self.unserved_rounds);

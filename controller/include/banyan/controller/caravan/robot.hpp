@@ -43,6 +43,10 @@ struct Robot {
   // A silence that lost packets do not explain: something stands between us.
   [[nodiscard]] int hidden_after() const noexcept { return std::max(2, self.loss_rounds * 2 / 5); }
   [[nodiscard]] bool is_lost(int k) const noexcept { return self.neighbors.age(k) > liveness(); }
+  // A worker at either end of the edge to my parent, or below me, still has to go on.
+  [[nodiscard]] bool is_wanted() const noexcept {
+    return self.want > 0 || (parent >= 0 && said(parent).role == Role::worker && said(parent).want > 0);
+  }
   void add_elapsed(std::uint16_t& rounds) const noexcept {
     rounds = static_cast<std::uint16_t>(std::min(rounds + elapsed_rounds, UINT16_MAX));
   }
