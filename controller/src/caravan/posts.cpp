@@ -11,7 +11,7 @@ constexpr std::uint8_t most_hops = 250;
 bool has_post(Robot& robot) noexcept {
   State& self = robot.self;
   const bool needs = self.role != Role::spare && robot.parent >= 0 && robot.is_wanted() &&
-                     robot.range(robot.parent) > robot.params.need_distance;
+                     robot.range(robot.parent) > robot.params.late_start;
   if (!needs) self.unserved_rounds = 0;
   else robot.add_elapsed(self.unserved_rounds);
   return self.unserved_rounds > whole(robot.params.call_after_rounds);
