@@ -44,9 +44,10 @@ void measure_silence(Robot& robot) noexcept {
   else if (++self.round % forgets_after == 0) --self.longest_silence;
 }
 
+// One that is hidden has not heard me either, and stays; one that is out of reach for a burst may drive on.
 float strayed(const Robot& robot, int k) noexcept {
-  const int rounds = robot.table().age(k) - 2;
-  if (robot.self.longest_silence == 0 || rounds <= 0) return 0.0F;
+  const int rounds = robot.table().age(k) - robot.liveness();
+  if (robot.self.longest_silence == 0 || rounds <= 0 || !is_in_the_clear(robot, k)) return 0.0F;
   return robot.params.speed_gain * robot.params.way_in_a_round() * static_cast<float>(rounds);
 }
 

@@ -115,8 +115,7 @@ void limit_motion(const Robot& robot, Guard& guard) noexcept {
   const float touching = 2.0F * p.body_radius;
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
-    const float longest = p.longest_edge - table.spread() - strayed(robot, k);
-    if (d > longest - 2.0F / p.guard_rate && is_promised(robot, k)) guard.add(table.position(k), longest, p.guard_rate);
+    if (is_promised(robot, k)) guard.add(table.position(k), p.longest_edge - table.spread() - strayed(robot, k), p.guard_rate);
     if (table.age(k) == 0 && d < touching + 0.05F && d > 0.0F) guard.add_limit(table.position(k) / d, std::max(0.0F, d - touching) * p.guard_rate);
   }
 }

@@ -41,7 +41,7 @@ struct Robot {
   // And in the tree, where the other end may have gone to look for me, or is to be met where it died.
   [[nodiscard]] int tree_lease() const noexcept { return std::max(lease(), params.rounds(params.pursue_drives)); }
   // A silence that lost packets do not explain: something stands between us.
-  [[nodiscard]] int hidden_after() const noexcept { return std::max(2, self.loss_rounds * 2 / 5); }
+  [[nodiscard]] int hidden_after() const noexcept { return std::max(2, self.loss_rounds * 3 / 5); }
   [[nodiscard]] bool is_lost(int k) const noexcept { return self.neighbors.age(k) > liveness(); }
   // A worker at either end of the edge to my parent, or below me, still has to go on.
   [[nodiscard]] bool is_wanted() const noexcept {
