@@ -56,7 +56,8 @@ bool is_promised(const Robot& robot, int k) noexcept {
   const Standing& m = robot.said(k);
   const RobotId id = robot.table().id(k);
   const bool named = id == self.parent || id == self.other || m.parent == self.id || m.other == self.id;
-  const bool unbound = (m.parent == nobody && m.root.id != id) || (self.parent == nobody && self.root.id != self.id);
+  const bool unbound =
+      (m.parent == nobody && m.role != Role::root) || (self.parent == nobody && self.role != Role::root);
   if (!named) return unbound && robot.table().age(k) <= robot.lease();
   const bool in_tree = self.role != Role::spare && m.role != Role::spare && (id == self.parent || m.parent == self.id);
   return robot.table().age(k) <= (in_tree ? robot.tree_lease() : robot.lease());

@@ -93,11 +93,17 @@ Vec2 goal(const Robot& robot) noexcept {
   const State& self = robot.self;
   const Params& p = robot.params;
   const float wide = 2.0F * p.clearance;  // robots under way pass lines of sight so far off
+  // The root is silent: all meet where it was, and so does one without a parent.
+  constexpr float near = 0.2F;  // C
+  const Token& root = self.tokens[0];
+  if (is_cut_off(robot) || (robot.parent < 0 && !robot.is_root() && root.located))
+    return (norm(root.place) > near ? unit(root.place) : Vec2{}) + make_room(robot, 0.0F);
   // Its upper end is lost: it goes where that was.
   if (robot.parent >= 0 && robot.is_lost(robot.parent)) return clamped(robot.position(robot.parent) / slowing, 1.0F) + make_room(robot, wide);
   switch (self.role) {
     case Role::worker: {
-      const Vec2 way = self.target_known && robot.parent >= 0 ? clamped(self.target / slowing, 1.0F) : Vec2{};
+      const Vec2* target = self.target();
+      const Vec2 way = target != nullptr && robot.parent >= 0 ? clamped(*target / slowing, 1.0F) : Vec2{};
       return way + make_room(robot, 0.0F);
     }
     case Role::spare: {

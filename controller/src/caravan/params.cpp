@@ -19,6 +19,9 @@ constexpr Parameter<Params> rows[] = {
     {{"room", "", "C", "spares keep so far from others", "Larger opens a crowd sooner.", "caravan", 0.0F, 0.5F, true}, &Params::room},
     {{"liveness_rounds", "I", "rounds", "a robot silent for longer counts as gone", "Longer where packets get lost.", "caravan", 1.0F, 1000.0F}, &Params::liveness_rounds},
     {{"pursue_drives", "", "drives", "the ends of a torn edge look for each other for so long", "Longer where ways are long.", "caravan", 0.0F, 100.0F}, &Params::pursue_drives},
+    {{"takeover_rounds", "", "rounds", "a holder silent for so long beyond 2 I is replaced", "Longer where news is slow.", "caravan", 0.0F, 10000.0F}, &Params::takeover_rounds},
+    {{"takeover_spread", "", "rounds/C", "so much later for each C from its place", "Longer, and fewer robots claim at once.", "caravan", 0.0F, 1000.0F}, &Params::takeover_spread},
+    {{"retreat_rounds", "", "rounds", "the root silent for so long beyond 2 I: all go where it was", "Longer where the radio fails for a while.", "caravan", 0.0F, 10000.0F}, &Params::retreat_rounds},
     {{"guard_rate", "", "1/drive", "how soon links are kept from growing", "Larger uses more of their length.", "caravan", 1.0F, 50.0F}, &Params::guard_rate},
     {{"call_after_rounds", "", "rounds", "an edge calls spares from afar after waiting so long", "Longer keeps spares where they are.", "caravan", 0.0F, 1000.0F}, &Params::call_after_rounds},
 };

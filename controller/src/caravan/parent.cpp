@@ -41,6 +41,7 @@ float cost(const Robot& robot, int k) noexcept {
   const bool is_parent = k == robot.parent;
   float c = d + stretch(robot, d);
   if (robot.table().age(k) > robot.hidden_after()) c += costs_silence;
+  if (is_newer(robot.self.newest, m.root)) c += costs_silence;  // it has not heard of the new root
   c += from_fixed(m.label);
   if (m.role == Role::spare) c += p.robot_cost * static_cast<float>(m.hops);
   if (m.role == Role::worker && robot.self.want > 0) c += p.robot_cost;

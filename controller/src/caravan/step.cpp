@@ -9,7 +9,7 @@ void file_heard(Robot& robot, const Inputs<Heard>& inputs) noexcept {
   State& self = robot.self;
   Table& table = self.neighbors;
   const Carry carry = inputs.carry();
-  self.target = carry.point(self.target);
+  for (Token& t : self.known()) t.place = carry.point(t.place);
   self.tally.rejected += inputs.rejected();
   const auto is_up = [&](RobotId id) { return id == self.parent || id == self.other; };
   const auto matters = [&](RobotId id, const Standing& m) {
@@ -29,13 +29,6 @@ void file_heard(Robot& robot, const Inputs<Heard>& inputs) noexcept {
   const auto keeps = [&](int k) { return table.id(k) == self.parent || is_promised(robot, k); };
   for (int k = 0; (k = table.remove_next(k, carry, robot.liveness(), keeps)) >= 0;)
     close_gap(table.standings, k, table.size() + 1);
-}
-
-void follow_orders(Robot& robot, const Orders& orders) noexcept {
-  State& self = robot.self;
-  self.is_worker = orders.sent;
-  self.target_known = orders.target.has_value() || (orders.sent && self.target_known);
-  if (orders.target) self.target = *orders.target;
 }
 
 void index_neighbors(Robot& robot) noexcept {
@@ -59,11 +52,11 @@ void update_role(Robot& robot) noexcept {
   if (robot.child_count > 0) self.childless_rounds = 0;
   else robot.add_elapsed(self.childless_rounds);
   const bool needed = robot.child_count > 0 || (self.role == Role::connector && self.childless_rounds <= patience);
-  self.role = robot.is_root() ? Role::root : self.is_worker ? Role::worker : needed ? Role::connector : Role::spare;
+  self.role = robot.is_root() ? Role::root : self.serves != nobody ? Role::worker : needed ? Role::connector : Role::spare;
   self.children = static_cast<std::uint8_t>(robot.child_count);
   float want = 0.0F;
   const float rests_within = 0.4F * robot.params.arrival_distance;
-  if (self.is_worker && self.target_known && norm(self.target) > rests_within) want = norm(self.target);
+  if (const Vec2* target = self.target(); target != nullptr && norm(*target) > rests_within) want = norm(*target);
   self.want = to_fixed<std::uint16_t>(want, per_range);
   robot.children.for_each([&](int k) { self.want = std::max(self.want, robot.said(k).want); });
   self.hops = 0;
@@ -79,8 +72,9 @@ void update_role(Robot& robot) noexcept {
 State initial(RobotId id, bool worker, bool root) noexcept {
   State self;
   self.id = id;
-  self.is_worker = worker;
-  if (root) self.root = {1, id};
+  self.was_sent = worker;
+  if (worker) self.serves = id;
+  if (root) self.root = self.newest = {1, id};
   return self;
 }
 
@@ -89,6 +83,7 @@ Output<Message> step(const Params& params, State& state, const Inputs<Heard>& in
   file_heard(robot, inputs);
   measure_silence(robot);
   follow_orders(robot, inputs.orders());
+  keep_tokens(robot, inputs.heard(), inputs.orders());
   index_neighbors(robot);
   update_role(robot);
   choose_parent(robot);
@@ -98,14 +93,16 @@ Output<Message> step(const Params& params, State& state, const Inputs<Heard>& in
   Guard guard;
   limit_motion(robot, guard);
   const Vec2 v = clamped(guard.apply(wish * params.speed_gain), 1.0F);
-  return {state, drive(v, guard, params)};
+  Output<Message> output{state, drive(v, guard, params)};
+  output.message.token = told_in_turn(robot);
+  return output;
 }
 
 Report report(const State& s) noexcept {
   Report r{.role = s.role,
-           .serves = s.is_worker ? s.id : nobody,
-           .root = s.root.id,
-           .root_sequence = s.root.number,
+           .serves = s.serves,
+           .root = s.newest.id,
+           .root_sequence = s.newest.number,
            .phase = Phase::grow_tree,
            .label = from_fixed(s.label),
            .want = from_fixed(s.want),
@@ -119,14 +116,16 @@ void add_to(Digest& digest, const State& s) noexcept {
   FieldDigest visit{digest};
   const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };
   visit_fields(visit, static_cast<const Message&>(s));
-  add(s.is_worker, s.target_known, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds, s.call_silence,
-      s.unserved_rounds, s.expected_packets, s.missed_packets, s.loss_rounds, s.longest_silence, s.round, s.target, s.neighbors.size());
+  add(s.newest.number, s.newest.id, s.serves, s.was_sent, s.token_count, s.turn, s.news_gap, s.since_start, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds, s.call_silence,
+      s.unserved_rounds, s.expected_packets, s.missed_packets, s.loss_rounds, s.longest_silence, s.round, s.neighbors.size());
   for (int k = 0; k < s.neighbors.size(); ++k) {
     add(s.neighbors.id(k), s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k));
     Message said;
     static_cast<Standing&>(said) = s.neighbors.standings[static_cast<std::size_t>(k)];
     visit_fields(visit, said);
   }
+  for (const Token& t : s.known())
+    add(t.name, t.holder, t.beat, t.age, t.place, t.located, t.reached, t.urgent);
   s.neighbors.filter().visit(add);
 }
 

@@ -39,6 +39,14 @@ void take_parent(Robot& robot, int k) noexcept;  // the one function that change
 
 void call_spares(Robot& robot) noexcept;
 
+// ---- tokens.cpp: principle 5 ----
+
+void follow_orders(Robot& robot, const Orders& orders) noexcept;
+void keep_tokens(Robot& robot, std::span<const Heard> heard, const Orders& orders) noexcept;
+[[nodiscard]] TokenNews told_in_turn(Robot& robot) noexcept;
+// No root has been heard of for long.
+[[nodiscard]] bool is_cut_off(const Robot& robot) noexcept;
+
 // ---- motion.cpp: principle 4 ----
 
 [[nodiscard]] Vec2 goal(const Robot& robot) noexcept;

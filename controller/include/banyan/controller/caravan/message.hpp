@@ -46,9 +46,26 @@ struct Standing {
   friend bool operator==(const Standing&, const Standing&) = default;
 };
 
+// The name of the root's token; a target's is the robot first sent there.
+inline constexpr RobotId root_name = 0xFFFE;
+
+// A token as a message tells of it, one in turn (principle 5).
+struct TokenNews {
+  RobotId name = nobody;    // nobody: none is known
+  RobotId holder = nobody;  // nobody: it has been given up
+  Serial beat = 0;          // the holder's count of rounds
+  bool reached = false;     // the holder is there
+  RobotId told = nobody;    // the neighbour that is told the place
+  Coordinate x;             // the place - that neighbour, in the frame of the edge to it
+  Coordinate y;
+
+  friend bool operator==(const TokenNews&, const TokenNews&) = default;
+};
+
 struct Message : Standing {
   static constexpr std::uint8_t blocks = 0;
   RobotId id = nobody;
+  TokenNews token;
 
   friend bool operator==(const Message&, const Message&) = default;
 };
@@ -68,6 +85,14 @@ template <class Visitor, class M> constexpr void visit_all(Visitor& visit, M& m)
   visit.robot("call", "the robot that advertises the nearest open post, -1: none", m.call.source);
   visit.number("call_count", "of that robot, modulo 256", m.call.count);
   visit.number("call_hops", "from that robot", m.call.hops);
+  visit.flag("token_reached", "1: the holder of `token` is at its place", m.token.reached);
+  visit.robot("token", "a token in turn: a target, by the robot first sent there, or 65534: the root; -1: none",
+              m.token.name);
+  visit.robot("token_holder", "the robot that holds it, -1: it has been given up", m.token.holder);
+  visit.number("token_beat", "the holder's count of rounds, modulo 65536", m.token.beat);
+  visit.robot("told", "the neighbour that is told its place, -1: nobody", m.token.told);
+  visit.coordinate("token_x", "the place relative to `told`, along the edge from the sender to it", m.token.x);
+  visit.coordinate("token_y", "the same, to the left of that edge", m.token.y);
 }
 template <class Visitor> constexpr void visit_fields(Visitor& visit, Message& m) noexcept { visit_all(visit, m); }
 template <class Visitor> constexpr void visit_fields(Visitor& visit, const Message& m) noexcept { visit_all(visit, m); }

@@ -27,6 +27,9 @@ struct Params : Machine {
   float sight_gain = 0.5F;
   float liveness_rounds = 5.0F;  // I
   float pursue_drives = 1.2F;     // the ends of a torn edge look for each other for so long
+  float takeover_rounds = 15.0F;  // a holder silent for so long beyond 2 I is replaced
+  float takeover_spread = 10.0F;  // rounds more per C from its place
+  float retreat_rounds = 25.0F;   // the root silent for so long beyond 2 I: all go where it was
   float guard_rate = 20.0F;
   float call_after_rounds = 20.0F;
   float arrival_distance = 0.1F;  // the mission's tolerance

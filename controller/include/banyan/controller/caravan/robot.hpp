@@ -32,7 +32,7 @@ struct Robot {
   }
   [[nodiscard]] Vec2 position(int k) const noexcept { return self.neighbors.position(k); }
   [[nodiscard]] float range(int k) const noexcept { return self.neighbors.range(k); }
-  [[nodiscard]] bool is_root() const noexcept { return self.root.id == self.id; }
+  [[nodiscard]] bool is_root() const noexcept { return self.newest.id == self.id; }
   [[nodiscard]] bool is_tree(int k) const noexcept { return said(k).role != Role::spare; }
   // Two clocks for silence. A robot silent for longer than this is not believed any more, and is replaced.
   [[nodiscard]] int liveness() const noexcept { return std::max<int>(whole(params.liveness_rounds), self.loss_rounds); }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "banyan/controller/caravan/message.hpp"
+#include <span>
+
 #include "banyan/controller/core/neighbors.hpp"
 
 namespace banyan::caravan {
@@ -11,9 +13,27 @@ struct Table : Neighbors {
   std::array<Standing, neighbor_capacity> standings{};
 };
 
+// The root's token, or a target's: a name, a holder, a count and a place.
+struct Token {
+  RobotId name = nobody;
+  RobotId holder = nobody;
+  Serial beat = 0;
+  std::uint16_t age = 0;  // rounds since its count advanced
+  Vec2 place;             // C, own frame
+  bool located = false;   // I know the place
+  bool reached = false;
+  std::uint8_t urgent = 0;  // for so many rounds it is told out of turn
+};
+inline constexpr std::size_t most_tokens = 33;
+
 struct State : Message {
-  bool is_worker = false;
-  bool target_known = false;
+  Root newest;              // that I have heard of; my place in the order may still be that of an older one
+  RobotId serves = nobody;  // the target that I hold, by its name
+  bool was_sent = false;
+  std::uint8_t token_count = 1;
+  std::uint8_t turn = 0;    // which token is told next
+  std::uint16_t news_gap = 200;  // sixteenths of rounds: the longest time of late without news of a holder that was there
+  std::array<Token, most_tokens> tokens{};  // the first `token_count`; the root's is the first
   bool rests = false;              // its beat, so that another robot gets ahead
   std::uint16_t other_rounds = 0;  // for how long the old promise has stood beside the new one
   std::uint16_t rest_rounds = 0;
@@ -25,9 +45,19 @@ struct State : Message {
   std::uint16_t loss_rounds = 0;   // for so long a robot that is there may be silent by chance; 0: no packets get lost
   std::uint8_t longest_silence = 0;  // that ended lately; 0: no packets get lost
   std::uint16_t round = 0;
-  Vec2 target;  // C, own frame
+  std::uint16_t since_start = 0;
   Tally tally;  // never read
   Table neighbors;
+
+  [[nodiscard]] std::span<Token> known() noexcept { return {tokens.data(), token_count}; }
+  [[nodiscard]] std::span<const Token> known() const noexcept { return {tokens.data(), token_count}; }
+  // Where my target is; null: I have none, or do not know.
+  [[nodiscard]] const Vec2* target() const noexcept {
+    if (serves == nobody) return nullptr;
+    for (const Token& t : known())
+      if (t.name == serves) return t.located ? &t.place : nullptr;
+    return nullptr;
+  }
 
   void prefetch(std::size_t entries) const noexcept {
     neighbors.prefetch(entries);

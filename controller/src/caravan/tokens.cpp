@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// The root and the holders of targets are the same thing: a token, whose holder counts rounds. All robots pass on the
+// newest counts and the places; the nearest free robot takes the token of a holder that has fallen silent.
+#include "banyan/controller/caravan/caravan.hpp"
+
+namespace banyan::caravan {
+namespace {
+
+constexpr int takeover_beats = 60;  // a new holder's count starts so far ahead of the news under way
+constexpr int rival_beats = 30;     // a count farther behind mine is that of a dead holder
+constexpr int urgent_rounds = 40;   // for so long a new holder has priority
+constexpr int per_round = 16;       // units of news_gap
+constexpr int gap_memory = 64;      // pieces of news
+constexpr int first_root_rounds = 200;  // by then the first root would have been heard
+constexpr float trust = 0.2F;       // in a place that is only remembered
+
+Token* find(State& self, RobotId name) noexcept {
+  for (Token& t : self.known())
+    if (t.name == name) return &t;
+  return nullptr;
+}
+
+// Memory for most_tokens; of more targets the nearest are kept.
+Token* add(State& self, RobotId name, Vec2 place) noexcept {
+  if (self.token_count < most_tokens) {
+    Token& t = self.tokens[self.token_count++];
+    t = {};
+    t.name = name;
+    return &t;
+  }
+  Token* farthest = nullptr;
+  for (Token& t : self.known())
+    if (t.name != root_name && t.name != self.serves && (farthest == nullptr || norm(t.place) > norm(farthest->place))) farthest = &t;
+  if (farthest == nullptr || norm(farthest->place) <= norm(place)) return nullptr;
+  *farthest = {};
+  farthest->name = name;
+  return farthest;
+}
+
+void announce(Token& t, RobotId holder) noexcept {
+  t.holder = holder;
+  t.beat = advanced(t.beat, takeover_beats);
+  t.age = 0;
+  t.urgent = urgent_rounds;
+}
+
+bool is_there(const Robot& robot, const Token& t) noexcept { return t.located && norm(t.place) <= robot.params.arrival_distance; }
+
+// First the one that is there, then the robot first sent, then the smaller id.
+bool has_precedence(RobotId a, bool a_reached, RobotId b, bool b_reached, RobotId name) noexcept {
+  if (a_reached != b_reached) return a_reached;
+  return a == name || (b != name && a < b);
+}
+
+void locate(Token& t, Vec2 place, bool fresh) noexcept {
+  if (!t.located || fresh) t.place = place;
+  else t.place += (place - t.place) * trust;
+  t.located = true;
+}
+
+void hear_token(Robot& robot, const Heard& h) noexcept {
+  State& self = robot.self;
+  const TokenNews& news = h.message->token;
+  if (news.name == nobody) return;
+  const bool told = news.told == self.id;
+  const Vec2 place = told ? from_edge_frame({news.x.value(), news.y.value()}, h.position) : Vec2{};
+  Token* t = find(self, news.name);
+  if (t == nullptr) {
+    if (!told || (t = add(self, news.name, place)) == nullptr) return;
+    t->beat = advanced(news.beat, -1);
+  }
+  if (news.name == self.serves) {
+    if (news.holder == self.id || news.holder == nobody || ahead_by(news.beat, t->beat) < -rival_beats) return;
+    if (has_precedence(news.holder, news.reached, self.id, t->reached, news.name)) {
+      self.serves = nobody;
+      t->holder = news.holder, t->beat = news.beat, t->reached = news.reached, t->age = 0, t->urgent = urgent_rounds;
+    } else {
+      t->beat = advanced(news.beat, takeover_beats);  // so that it hears of me
+    }
+    return;
+  }
+  if (news.holder == self.id && news.name != root_name) return;  // old news, from before I resigned
+  // The beats of the root's token are those of the order, which are heard from everybody.
+  if (news.name != root_name && is_news(news.beat, t->beat, t->age)) {
+    if (news.holder == t->holder) {
+      const int gap = self.news_gap - self.news_gap / gap_memory;
+      self.news_gap = static_cast<std::uint16_t>(std::clamp<int>(t->age * per_round, gap, UINT16_MAX));
+    } else {
+      t->urgent = urgent_rounds;
+    }
+    t->holder = news.holder, t->beat = news.beat, t->reached = news.reached, t->age = 0;
+  }
+  if (told && !(news.name == root_name && news.holder != self.newest.id)) locate(*t, place, t->age <= 2 * robot.liveness() + static_cast<int>(most_tokens));
+}
+
+void follow_root(Robot& robot, std::span<const Heard> heard) noexcept {
+  State& self = robot.self;
+  Token& root = self.tokens[0];
+  root.name = root_name;
+  for (const Heard& h : heard) {
+    const Message& m = *h.message;
+    if (m.id == self.id || m.root.id == nobody) continue;
+    if (is_newer(m.root, self.newest)) self.newest = m.root;
+    if (m.root != self.newest) continue;
+    if (root.holder != m.root.id || is_news(m.beat, root.beat, root.age))
+      root.holder = m.root.id, root.beat = m.beat, root.age = 0;
+    if (m.id == m.root.id) root.place = h.position, root.located = true;
+  }
+  if (robot.is_root()) root.holder = self.id, root.beat = self.beat, root.age = 0, root.place = {}, root.located = true;
+}
+
+void mind_own(Robot& robot, const Orders& orders) noexcept {
+  State& self = robot.self;
+  for (Token& t : self.known())
+    if (t.name != root_name && t.holder == self.id && t.name != self.serves) announce(t, nobody);
+  if (orders.target && self.was_sent) {
+    Token* t = find(self, self.id);
+    if (t == nullptr) t = add(self, self.id, *orders.target);
+    if (t != nullptr && (self.serves == self.id || t->holder != nobody)) locate(*t, *orders.target, true);
+  }
+  if (self.serves == nobody) return;
+  if (Token* t = find(self, self.serves); t != nullptr) {
+    t->holder = self.id, t->age = 0, t->reached = is_there(robot, *t);
+    t->beat = advanced(t->beat, robot.elapsed_rounds);
+  }
+}
+
+// News goes in to the root and out to me, and on the way each robot tells of all tokens in turn.
+int way_of_news(const Robot& robot, const Token& t) noexcept {
+  constexpr float hop = 0.7F;  // C
+  const State& self = robot.self;
+  const float way = distance(self.tokens[0].place, t.place) + from_fixed(self.label);
+  return static_cast<int>(way / hop * static_cast<float>(self.token_count));
+}
+
+bool is_silent(const Robot& robot, const Token& t) noexcept {
+  const Params& p = robot.params;
+  const int late = t.name == root_name ? 0 : std::max(2 * robot.self.news_gap / per_round, way_of_news(robot, t));
+  return t.age > 2 * robot.liveness() + late + whole(p.takeover_rounds + p.takeover_spread * norm(t.place));
+}
+
+// Nobody has ever heard of a root: the smallest id among those that hear each other.
+bool misses_first_root(const Robot& robot) noexcept {
+  const Table& table = robot.table();
+  if (robot.self.newest.id != nobody || robot.self.since_start <= first_root_rounds || table.size() == 0) return false;
+  for (int k = 0; k < table.size(); ++k)
+    if (!robot.is_lost(k) && table.id(k) < robot.self.id && robot.said(k).role != Role::worker) return false;
+  return true;
+}
+
+void take_over(Robot& robot) noexcept {
+  State& self = robot.self;
+  if (robot.is_root() || self.serves != nobody) return;
+  Token& root = self.tokens[0];
+  if (misses_first_root(robot) || (root.located && self.newest.id != nobody && is_silent(robot, root))) {
+    self.root = self.newest = {advanced(self.newest.number), self.id};
+    root.holder = self.id, root.age = 0, root.place = {}, root.located = true;
+    self.parent = nobody;
+    ++self.tally.elections;
+    return;
+  }
+  if (self.role != Role::spare || root.age > 2 * robot.liveness()) return;
+  for (Token& t : self.known()) {
+    if (t.name == root_name || !t.located || t.holder == nobody || !is_silent(robot, t)) continue;
+    self.serves = t.name;
+    announce(t, self.id);
+    ++self.tally.replacements;
+    return;
+  }
+}
+
+}  // namespace
+
+// A robot that has resigned, or serves another's target, stays with that, however long it is sent.
+void follow_orders(Robot& robot, const Orders& orders) noexcept {
+  State& self = robot.self;
+  const bool called_back = self.was_sent && (!orders.sent || orders.given_up == self.id);
+  if (self.serves != nobody && ((called_back && self.serves == self.id) || self.serves == orders.given_up)) self.serves = nobody;
+  if (orders.sent && (!self.was_sent || called_back)) self.serves = self.id;
+  self.was_sent = orders.sent;
+}
+
+void keep_tokens(Robot& robot, std::span<const Heard> heard, const Orders& orders) noexcept {
+  State& self = robot.self;
+  robot.add_elapsed(self.since_start);
+  for (Token& t : self.known()) {
+    robot.add_elapsed(t.age);
+    t.urgent = static_cast<std::uint8_t>(std::max(0, t.urgent - robot.elapsed_rounds));
+  }
+  mind_own(robot, orders);
+  follow_root(robot, heard);
+  for (const Heard& h : heard)
+    if (h.message->id != self.id) hear_token(robot, h);
+  take_over(robot);
+}
+
+// The next token, or every second time the next that is urgent; the neighbour that is told places changes with each turn.
+TokenNews told_in_turn(Robot& robot) noexcept {
+  State& self = robot.self;
+  const Table& table = robot.table();
+  const auto after = [&](int at) { return static_cast<std::uint8_t>((at + 1) % self.token_count); };
+  std::uint8_t next = after(self.turn);
+  if (self.since_start % 2 != 0)
+    for (int k = 0; k < self.token_count && self.tokens[next].urgent == 0; ++k) next = after(next);
+  if (next <= self.turn) self.token.told = table.next_heard(self.token.told, 1);
+  self.turn = next;
+  const Token& t = self.tokens[next];
+  TokenNews news{t.name, t.holder, t.beat, t.reached, nobody, {}, {}};
+  if (const int k = t.located ? table.find(self.token.told) : -1; k >= 0) {
+    news.told = self.token.told;
+    write_in_edge_frame(t.place - table.position(k), table.position(k), news.x, news.y);
+  }
+  return news;
+}
+
+bool is_cut_off(const Robot& robot) noexcept {
+  const State& self = robot.self;
+  return !robot.is_root() && self.tokens[0].located && self.tokens[0].age > 2 * robot.liveness() + whole(robot.params.retreat_rounds);
+}
+
+}  // namespace banyan::caravan
