@@ -116,7 +116,7 @@ void add_to(Digest& digest, const State& s) noexcept {
   FieldDigest visit{digest};
   const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };
   visit_fields(visit, static_cast<const Message&>(s));
-  add(s.newest.number, s.newest.id, s.serves, s.was_sent, s.token_count, s.turn, s.news_gap, s.since_start, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds, s.call_silence,
+  add(s.newest.number, s.newest.id, s.serves, s.was_sent, s.token_count, s.turn, s.urgent_turn, s.news_gap, s.since_start, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds, s.call_silence,
       s.unserved_rounds, s.expected_packets, s.missed_packets, s.loss_rounds, s.longest_silence, s.round, s.neighbors.size());
   for (int k = 0; k < s.neighbors.size(); ++k) {
     add(s.neighbors.id(k), s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k));

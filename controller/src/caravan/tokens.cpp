@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <cstdlib>
 // The root and the holders of targets are the same thing: a token, whose holder counts rounds. All robots pass on the
 // newest counts and the places; the nearest free robot takes the token of a holder that has fallen silent.
 #include "banyan/controller/caravan/caravan.hpp"
@@ -52,12 +54,6 @@ bool has_precedence(RobotId a, bool a_reached, RobotId b, bool b_reached, RobotI
   return a == name || (b != name && a < b);
 }
 
-void locate(Token& t, Vec2 place, bool fresh) noexcept {
-  if (!t.located || fresh) t.place = place;
-  else t.place += (place - t.place) * trust;
-  t.located = true;
-}
-
 void hear_token(Robot& robot, const Heard& h) noexcept {
   State& self = robot.self;
   const TokenNews& news = h.message->token;
@@ -68,6 +64,16 @@ void hear_token(Robot& robot, const Heard& h) noexcept {
   if (t == nullptr) {
     if (!told || (t = add(self, news.name, place)) == nullptr) return;
     t->beat = advanced(news.beat, -1);
+    t->holder = news.holder;
+  }
+  // The robot first sent there is told by the mission; while it lives, news of its own place is best, and of several
+  // copies the newest. All others only remember, and what they remember is averaged.
+  constexpr int stale = 3;  // rounds
+  const bool by_memory = t->holder != t->name || t->age > 2 * robot.liveness() + self.token_count;
+  if (told && news.name != root_name && !(self.was_sent && news.name == self.id)) {
+    if (!t->located || (!by_memory && ahead_by(news.beat, t->beat) >= -stale)) t->place = place;
+    else if (by_memory) t->place += (place - t->place) * trust;
+    t->located = true;
   }
   if (news.name == self.serves) {
     if (news.holder == self.id || news.holder == nobody || ahead_by(news.beat, t->beat) < -rival_beats) return;
@@ -90,7 +96,11 @@ void hear_token(Robot& robot, const Heard& h) noexcept {
     }
     t->holder = news.holder, t->beat = news.beat, t->reached = news.reached, t->age = 0;
   }
-  if (told && !(news.name == root_name && news.holder != self.newest.id)) locate(*t, place, t->age <= 2 * robot.liveness() + static_cast<int>(most_tokens));
+  // Once the root is silent, copies of copies would only drift.
+  if (told && news.name == root_name && news.holder == self.newest.id && (!t->located || t->age <= robot.liveness())) {
+    t->place = place;
+    t->located = true;
+  }
 }
 
 void follow_root(Robot& robot, std::span<const Heard> heard) noexcept {
@@ -116,7 +126,7 @@ void mind_own(Robot& robot, const Orders& orders) noexcept {
   if (orders.target && self.was_sent) {
     Token* t = find(self, self.id);
     if (t == nullptr) t = add(self, self.id, *orders.target);
-    if (t != nullptr && (self.serves == self.id || t->holder != nobody)) locate(*t, *orders.target, true);
+    if (t != nullptr) t->place = *orders.target, t->located = true;
   }
   if (self.serves == nobody) return;
   if (Token* t = find(self, self.serves); t != nullptr) {
@@ -162,6 +172,7 @@ void take_over(Robot& robot) noexcept {
   if (self.role != Role::spare || root.age > 2 * robot.liveness()) return;
   for (Token& t : self.known()) {
     if (t.name == root_name || !t.located || t.holder == nobody || !is_silent(robot, t)) continue;
+    if (getenv("DBG")) std::fprintf(stderr,"%d takes %d age %d gap %d way %d lv %d d %.2f r %d\n", self.id, t.name, t.age, self.news_gap/16, way_of_news(robot,t), robot.liveness(), (double)norm(t.place), self.since_start);
     self.serves = t.name;
     announce(t, self.id);
     ++self.tally.replacements;
@@ -199,11 +210,14 @@ TokenNews told_in_turn(Robot& robot) noexcept {
   State& self = robot.self;
   const Table& table = robot.table();
   const auto after = [&](int at) { return static_cast<std::uint8_t>((at + 1) % self.token_count); };
-  std::uint8_t next = after(self.turn);
-  if (self.since_start % 2 != 0)
-    for (int k = 0; k < self.token_count && self.tokens[next].urgent == 0; ++k) next = after(next);
-  if (next <= self.turn) self.token.told = table.next_heard(self.token.told, 1);
-  self.turn = next;
+  std::uint8_t next = after(self.urgent_turn);
+  for (int k = 0; k < self.token_count && self.tokens[next].urgent == 0; ++k) next = after(next);
+  if (self.since_start % 2 == 0 || self.tokens[next].urgent == 0) {
+    next = self.turn = after(self.turn);
+    if (next == 0) self.token.told = table.next_heard(self.token.told, 1);
+  } else {
+    self.urgent_turn = next;
+  }
   const Token& t = self.tokens[next];
   TokenNews news{t.name, t.holder, t.beat, t.reached, nobody, {}, {}};
   if (const int k = t.located ? table.find(self.token.told) : -1; k >= 0) {
