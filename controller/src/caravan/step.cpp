@@ -8,7 +8,7 @@ namespace {
 void file_heard(Robot& robot, const Inputs<Heard>& inputs) noexcept {
   State& self = robot.self;
   Table& table = self.neighbors;
-  const Carry carry = inputs.carry();
+  const Carry& carry = robot.carry;
   for (Token& t : self.known()) t.place = carry.point(t.place);
   self.tally.rejected += inputs.rejected();
   const auto is_up = [&](RobotId id) { return id == self.parent || id == self.other; };
@@ -16,11 +16,11 @@ void file_heard(Robot& robot, const Inputs<Heard>& inputs) noexcept {
     return is_up(id) || m.parent == self.id || m.other == self.id;
   };
   table.begin(robot.elapsed_rounds, robot.params.way_in_a_round());
-  for (const Heard& h : inputs.heard()) {
+  for (Heard& h : robot.heard) {
     const Message& m = *h.message;
-    Vec2 before;
+    h.before = {};
     if (m.id == self.id || m.id == nobody) continue;
-    int k = table.file(m.id, h.position, before, carry);
+    int k = table.file(m.id, h.position, h.before, carry);
     if (k < 0)
       k = table.enter(m.id, h.position, matters(m.id, m),
                       [&](int j) { return matters(table.id(j), table.standings[static_cast<std::size_t>(j)]); });
@@ -79,11 +79,11 @@ State initial(RobotId id, bool worker, bool root) noexcept {
 }
 
 Output<Message> step(const Params& params, State& state, const Inputs<Heard>& inputs) noexcept {
-  Robot robot{params, state, inputs.obstacles(), inputs.elapsed_ticks()};
+  Robot robot{params, state, inputs.obstacles(), inputs.elapsed_ticks(), inputs.carry(), inputs.heard()};
   file_heard(robot, inputs);
   measure_silence(robot);
   follow_orders(robot, inputs.orders());
-  keep_tokens(robot, inputs.heard(), inputs.orders());
+  keep_tokens(robot, inputs.orders());
   index_neighbors(robot);
   update_role(robot);
   choose_parent(robot);

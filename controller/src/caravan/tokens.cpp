@@ -58,8 +58,9 @@ void hear_token(Robot& robot, const Heard& h) noexcept {
   State& self = robot.self;
   const TokenNews& news = h.message->token;
   if (news.name == nobody) return;
-  const bool told = news.told == self.id;
-  const Vec2 place = told ? from_edge_frame({news.x.value(), news.y.value()}, h.position) : Vec2{};
+  // What the sender wrote refers to where both were a round ago; over a distance an old bearing makes a large error.
+  const bool told = news.told == self.id && !(h.before == Vec2{});
+  const Vec2 place = robot.carry.point({}) + from_edge_frame({news.x.value(), news.y.value()}, robot.carry.vector(h.before));
   Token* t = find(self, news.name);
   if (t == nullptr) {
     if (!told || (t = add(self, news.name, place)) == nullptr) return;
@@ -103,11 +104,11 @@ void hear_token(Robot& robot, const Heard& h) noexcept {
   }
 }
 
-void follow_root(Robot& robot, std::span<const Heard> heard) noexcept {
+void follow_root(Robot& robot) noexcept {
   State& self = robot.self;
   Token& root = self.tokens[0];
   root.name = root_name;
-  for (const Heard& h : heard) {
+  for (const Heard& h : robot.heard) {
     const Message& m = *h.message;
     if (m.id == self.id || m.root.id == nobody) continue;
     if (is_newer(m.root, self.newest)) self.newest = m.root;
@@ -163,6 +164,7 @@ void take_over(Robot& robot) noexcept {
   if (robot.is_root() || self.serves != nobody) return;
   Token& root = self.tokens[0];
   if (misses_first_root(robot) || (root.located && self.newest.id != nobody && is_silent(robot, root))) {
+    if (getenv("DBG")) std::fprintf(stderr,"%d claims root age %d number %d d %.2f lv %d r %d role %d miss %d\n", self.id, root.age, self.newest.number, (double)norm(root.place), robot.liveness(), self.since_start, (int)self.role, (int)misses_first_root(robot));
     self.root = self.newest = {advanced(self.newest.number), self.id};
     root.holder = self.id, root.age = 0, root.place = {}, root.located = true;
     self.parent = nobody;
@@ -191,7 +193,7 @@ void follow_orders(Robot& robot, const Orders& orders) noexcept {
   self.was_sent = orders.sent;
 }
 
-void keep_tokens(Robot& robot, std::span<const Heard> heard, const Orders& orders) noexcept {
+void keep_tokens(Robot& robot, const Orders& orders) noexcept {
   State& self = robot.self;
   robot.add_elapsed(self.since_start);
   for (Token& t : self.known()) {
@@ -199,8 +201,8 @@ void keep_tokens(Robot& robot, std::span<const Heard> heard, const Orders& order
     t.urgent = static_cast<std::uint8_t>(std::max(0, t.urgent - robot.elapsed_rounds));
   }
   mind_own(robot, orders);
-  follow_root(robot, heard);
-  for (const Heard& h : heard)
+  follow_root(robot);
+  for (const Heard& h : robot.heard)
     if (h.message->id != self.id) hear_token(robot, h);
   take_over(robot);
 }
@@ -214,13 +216,13 @@ TokenNews told_in_turn(Robot& robot) noexcept {
   for (int k = 0; k < self.token_count && self.tokens[next].urgent == 0; ++k) next = after(next);
   if (self.since_start % 2 == 0 || self.tokens[next].urgent == 0) {
     next = self.turn = after(self.turn);
-    if (next == 0) self.token.told = table.next_heard(self.token.told, 1);
+    if (next == 0) self.token.told = table.next_heard(self.token.told, 0);
   } else {
     self.urgent_turn = next;
   }
   const Token& t = self.tokens[next];
   TokenNews news{t.name, t.holder, t.beat, t.reached, nobody, {}, {}};
-  if (const int k = t.located ? table.find(self.token.told) : -1; k >= 0) {
+  if (const int k = t.located ? table.find(self.token.told) : -1; k >= 0 && table.age(k) == 0) {
     news.told = self.token.told;
     write_in_edge_frame(t.place - table.position(k), table.position(k), news.x, news.y);
   }

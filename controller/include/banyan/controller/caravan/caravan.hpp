@@ -42,7 +42,7 @@ void call_spares(Robot& robot) noexcept;
 // ---- tokens.cpp: principle 5 ----
 
 void follow_orders(Robot& robot, const Orders& orders) noexcept;
-void keep_tokens(Robot& robot, std::span<const Heard> heard, const Orders& orders) noexcept;
+void keep_tokens(Robot& robot, const Orders& orders) noexcept;
 [[nodiscard]] TokenNews told_in_turn(Robot& robot) noexcept;
 // No root has been heard of for long.
 [[nodiscard]] bool is_cut_off(const Robot& robot) noexcept;

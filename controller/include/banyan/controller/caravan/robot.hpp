@@ -13,6 +13,7 @@ struct Heard {
   const Message* message;
   Vec2 position;
   float age_s;
+  Vec2 before{};  // where it was a round ago, in my frame of then; zero: it was not heard then
 };
 
 struct Robot {
@@ -20,6 +21,8 @@ struct Robot {
   State& self;
   std::span<const Vec2> obstacles;
   int elapsed_rounds;
+  Carry carry;
+  std::span<Heard> heard;
   int parent = -1;  // their entries in the table
   int other = -1;
   Rows children{};  // robots of the tree that name me as their parent
