@@ -26,13 +26,26 @@ Vec2 tow(const Robot& robot) noexcept {
   return clamped(u, 1.0F);
 }
 
-// Edges are taut strings: chains become straight, and three meet at 120 degrees.
-Vec2 tension(const Robot& robot) noexcept {
+Vec2 strings(const Robot& robot, float start, float width) noexcept {
   Vec2 u;
-  const auto draw = [&](int k) { u += unit(robot.position(k)) * ramp(robot.range(k), tension_start, tension_width); };
+  const auto draw = [&](int k) { u += unit(robot.position(k)) * ramp(robot.range(k), start, width); };
   if (robot.parent >= 0) draw(robot.parent);
   robot.children.for_each(draw);
-  return u * robot.params.tension_gain;
+  return u;
+}
+
+// Edges are taut strings: chains become straight, and three meet at 120 degrees.
+Vec2 tension(const Robot& robot) noexcept {
+  return strings(robot, tension_start, tension_width) * robot.params.tension_gain;
+}
+
+// While a post near by waits in vain, long edges take slack from short ones.
+Vec2 slack(const Robot& robot) noexcept {
+  constexpr int near_hops = 8;
+  constexpr float gain = 2.0F;
+  const Params& p = robot.params;
+  if (robot.self.call.source == nobody || robot.self.call.hops > near_hops) return {};
+  return strings(robot, p.pull_start, p.longest_edge - p.pull_start) * gain;
 }
 
 // Where a spare that hears the call from neighbour k is to go: into the edge, if it hears both ends of it; past k, in the
@@ -104,14 +117,17 @@ Vec2 goal(const Robot& robot) noexcept {
     case Role::worker: {
       const Vec2* target = self.target();
       const Vec2 way = target != nullptr && robot.parent >= 0 ? clamped(*target / slowing, 1.0F) : Vec2{};
-      return way + make_room(robot, 0.0F);
+      // At its target it gives way a little, if that lets another one reach its own.
+      constexpr float fading = 0.1F;
+      const float give = target == nullptr ? 0.0F : std::clamp((p.arrival_distance * 0.95F - norm(*target)) / slowing / fading, 0.0F, 1.0F);
+      return way + clamped(slack(robot), give) + make_room(robot, 0.0F);
     }
     case Role::spare: {
       const Vec2 way = wait(robot);
       return way + make_room(robot, norm(way) > 0.0F ? wide : p.sight_width);
     }
     default:
-      return tow(robot) + (robot.is_root() && self.want > 0 ? Vec2{} : tension(robot)) + make_room(robot, p.sight_width);
+      return tow(robot) + (robot.is_root() && self.want > 0 ? Vec2{} : tension(robot)) + slack(robot) + make_room(robot, p.sight_width);
   }
 }
 
