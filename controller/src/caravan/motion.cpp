@@ -13,6 +13,11 @@ constexpr float follow_tree = 0.5F;
 
 float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
 
+// Towards a place, round obstacles; slower over the last bit.
+Vec2 towards(Robot& robot, Vec2 place) noexcept {
+  return bypass({robot.obstacles, robot.params.body_radius, robot.self.id}, robot.self.detour, place) * std::min(1.0F, norm(place) / slowing);
+}
+
 // A connector follows the children that still have to go on.
 Vec2 tow(const Robot& robot) noexcept {
   const Params& p = robot.params;
@@ -60,7 +65,7 @@ Vec2 place_for(const Robot& robot, int k) noexcept {
   return robot.said(k).call.hops == 0 ? at + edge * 0.5F : at - unit(edge) * past;
 }
 
-Vec2 wait(const Robot& robot) noexcept {
+Vec2 wait(Robot& robot) noexcept {
   const Params& p = robot.params;
   const Table& table = robot.table();
   if (robot.self.call.source != nobody) {
@@ -69,11 +74,11 @@ Vec2 wait(const Robot& robot) noexcept {
       const bool leads = table.age(j) <= 1 && c.source == robot.self.call.source && c.hops < robot.self.call.hops;
       return leads ? static_cast<float>(c.hops) + 0.5F * table.range(j) : not_counted;
     });
-    if (k >= 0) return clamped(place_for(robot, k) / slowing, 1.0F);
+    if (k >= 0) return towards(robot, place_for(robot, k));
   }
   if (robot.parent < 0) return {};
   const float reach = robot.is_tree(robot.parent) ? follow_tree : follow_spare;
-  return unit(robot.position(robot.parent)) * ramp(robot.range(robot.parent), reach, p.pull_width);
+  return towards(robot, robot.position(robot.parent)) * ramp(robot.range(robot.parent), reach, p.pull_width);
 }
 
 // Room for others: spares and robots of the tree that are near, and the lines of sight of their edges.
@@ -102,7 +107,7 @@ Vec2 make_room(const Robot& robot, float width) noexcept {
 
 }  // namespace
 
-Vec2 goal(const Robot& robot) noexcept {
+Vec2 goal(Robot& robot) noexcept {
   const State& self = robot.self;
   const Params& p = robot.params;
   const float wide = 2.0F * p.clearance;  // robots under way pass lines of sight so far off
@@ -110,13 +115,13 @@ Vec2 goal(const Robot& robot) noexcept {
   constexpr float near = 0.2F;  // C
   const Token& root = self.tokens[0];
   if (is_cut_off(robot) || (robot.parent < 0 && !robot.is_root() && root.located))
-    return (norm(root.place) > near ? unit(root.place) : Vec2{}) + make_room(robot, 0.0F);
+    return (norm(root.place) > near ? towards(robot, root.place) : Vec2{}) + make_room(robot, 0.0F);
   // Its upper end is lost: it goes where that was.
-  if (robot.parent >= 0 && robot.is_lost(robot.parent)) return clamped(robot.position(robot.parent) / slowing, 1.0F) + make_room(robot, wide);
+  if (robot.parent >= 0 && robot.is_lost(robot.parent)) return towards(robot, robot.position(robot.parent)) + make_room(robot, wide);
   switch (self.role) {
     case Role::worker: {
       const Vec2* target = self.target();
-      const Vec2 way = target != nullptr && robot.parent >= 0 ? clamped(*target / slowing, 1.0F) : Vec2{};
+      const Vec2 way = target != nullptr && robot.parent >= 0 ? towards(robot, *target) : Vec2{};
       // At its target it gives way a little, if that lets another one reach its own.
       constexpr float fading = 0.1F;
       const float give = target == nullptr ? 0.0F : std::clamp((p.arrival_distance * 0.95F - norm(*target)) / slowing / fading, 0.0F, 1.0F);
@@ -126,19 +131,26 @@ Vec2 goal(const Robot& robot) noexcept {
       const Vec2 way = wait(robot);
       return way + make_room(robot, norm(way) > 0.0F ? wide : p.sight_width);
     }
-    default:
-      return tow(robot) + (robot.is_root() && self.want > 0 ? Vec2{} : tension(robot)) + slack(robot) + make_room(robot, p.sight_width);
+    default: {
+      const Vec2 pull = tow(robot);
+      const Vec2 along = robot.obstacles.empty() || pull == Vec2{} ? pull : towards(robot, pull) * norm(pull);
+      return along + (robot.is_root() && self.want > 0 ? Vec2{} : tension(robot)) + slack(robot) + make_room(robot, p.sight_width);
+    }
   }
 }
 
 void limit_motion(const Robot& robot, Guard& guard) noexcept {
+  keep_off({robot.obstacles, robot.params.body_radius, robot.self.id}, robot.params.guard_rate, guard);
   const Params& p = robot.params;
   const Table& table = robot.table();
-  const float touching = 2.0F * p.body_radius;
+  const float touching = 2.1F * p.body_radius;
+  const bool by_memory = robot.self.serves != nobody && robot.self.serves != robot.self.id;
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
     if (is_promised(robot, k)) guard.add(table.position(k), p.longest_edge - table.spread() - strayed(robot, k), p.guard_rate);
-    if (table.age(k) == 0 && d < touching + 0.05F && d > 0.0F) guard.add_limit(table.position(k) / d, std::max(0.0F, d - touching) * p.guard_rate);
+    // One that is pushed does not notice, and is wrong about places from then on.
+    const bool pushes = robot.said(k).role == Role::worker || by_memory;
+    if (pushes && table.age(k) == 0 && d < touching + 0.05F && d > 0.0F) guard.add_limit(table.position(k) / d, std::max(0.0F, d - touching) * p.guard_rate);
   }
 }
 

@@ -10,6 +10,7 @@ void file_heard(Robot& robot, const Inputs<Heard>& inputs) noexcept {
   Table& table = self.neighbors;
   const Carry& carry = robot.carry;
   for (Token& t : self.known()) t.place = carry.point(t.place);
+  carry_detour(self.detour, carry);
   self.tally.rejected += inputs.rejected();
   const auto is_up = [&](RobotId id) { return id == self.parent || id == self.other; };
   const auto matters = [&](RobotId id, const Standing& m) {
@@ -126,6 +127,8 @@ void add_to(Digest& digest, const State& s) noexcept {
   }
   for (const Token& t : s.known())
     add(t.name, t.holder, t.beat, t.age, t.place, t.located, t.reached, t.urgent);
+  add(s.detour.side, s.detour.contact, s.detour.origin, s.detour.goal, s.detour.leave, s.detour.span, s.detour.last_side,
+      s.detour.again);
   s.neighbors.filter().visit(add);
 }
 

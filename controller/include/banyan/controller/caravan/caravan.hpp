@@ -49,7 +49,7 @@ void keep_tokens(Robot& robot, const Orders& orders) noexcept;
 
 // ---- motion.cpp: principle 4 ----
 
-[[nodiscard]] Vec2 goal(const Robot& robot) noexcept;
+[[nodiscard]] Vec2 goal(Robot& robot) noexcept;
 void limit_motion(const Robot& robot, Guard& guard) noexcept;
 
 }  // namespace banyan::caravan

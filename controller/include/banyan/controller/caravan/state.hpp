@@ -6,6 +6,7 @@
 #include <span>
 
 #include "banyan/controller/core/neighbors.hpp"
+#include "banyan/controller/obstacles/way_round.hpp"
 
 namespace banyan::caravan {
 
@@ -47,7 +48,8 @@ struct State : Message {
   std::uint8_t longest_silence = 0;  // that ended lately; 0: no packets get lost
   std::uint16_t round = 0;
   std::uint16_t since_start = 0;
-  Tally tally;  // never read
+  Detour detour;  // the way round an obstacle
+  Tally tally;    // never read
   Table neighbors;
 
   [[nodiscard]] std::span<Token> known() noexcept { return {tokens.data(), token_count}; }
