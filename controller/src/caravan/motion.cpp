@@ -6,6 +6,8 @@ namespace banyan::caravan {
 namespace {
 
 constexpr float tension_start = 0.15F;  // C
+constexpr float pinned_start = 0.125F;
+constexpr float pinned_width = 0.05F;
 constexpr float tension_width = 0.15F;
 constexpr float slowing = 0.05F;  // the last bit to a place
 constexpr float follow_spare = 0.25F;  // a spare stays so near to its parent
@@ -15,6 +17,8 @@ float ramp(float d, float start, float width) noexcept { return std::clamp((d - 
 
 // Towards a place, round obstacles; slower over the last bit.
 Vec2 towards(Robot& robot, Vec2 place) noexcept {
+  constexpr float last_bit = 0.15F;  // straight, as near as obstacles allow: a dead worker may lie there
+  if (robot.self.role == Role::worker && norm(place) < last_bit) return clamped(place / slowing, 1.0F);
   return bypass({robot.obstacles, robot.params.body_radius, robot.self.id}, robot.self.detour, place) * std::min(1.0F, norm(place) / slowing);
 }
 
@@ -26,7 +30,9 @@ Vec2 tow(const Robot& robot) noexcept {
   const float start = robot.is_root() || towing > 1 ? p.late_start : p.pull_start;
   Vec2 u;
   robot.children.for_each([&](int k) {
-    if (robot.said(k).want > 0) u += unit(robot.position(k)) * ramp(robot.range(k), start, p.pull_width);
+    const Standing& m = robot.said(k);
+    // A child at a corner needs its parent there before it can go round.
+    if (m.want > 0) u += unit(robot.position(k)) * (m.pinned ? ramp(robot.range(k), pinned_start, pinned_width) : ramp(robot.range(k), start, p.pull_width));
   });
   return clamped(u, 1.0F);
 }
@@ -141,6 +147,7 @@ Vec2 goal(Robot& robot) noexcept {
 
 void limit_motion(const Robot& robot, Guard& guard) noexcept {
   keep_off({robot.obstacles, robot.params.body_radius, robot.self.id}, robot.params.guard_rate, guard);
+  keep_sight(robot, guard);
   const Params& p = robot.params;
   const Table& table = robot.table();
   const float touching = 2.1F * p.body_radius;

@@ -10,27 +10,17 @@ namespace {
 constexpr float steep = 3.0F;          // what the longest edge costs beyond its length, C
 constexpr float loose = 0.5F;             // a link of a spare, C
 constexpr float soon = 0.075F;
+constexpr float pinned_edge = 0.3F;  // at a corner edges are to be short
 constexpr float relaxed = 0.90F;       // an edge that need not grow any more is good up to here
 constexpr float costs_silence = 5.0F;  // the parent is hidden, or dead
-constexpr float costs_hidden = 2.0F;   // it soon will be
 constexpr int most_rest = 15;          // rounds
 
 // Up to where an edge may grow it costs its length; then the more, the sooner it will hold somebody back.
 float stretch(const Robot& robot, float d) noexcept {
   const Params& p = robot.params;
-  const float start = robot.self.role == Role::spare ? loose : robot.is_wanted() ? p.need_distance - soon : relaxed;
+  const float start = robot.self.role == Role::spare ? loose : robot.self.pinned  ? pinned_edge
+                      : robot.is_wanted()  ? p.need_distance - soon : relaxed;
   return steep * std::max(0.0F, (d - start) / (p.longest_edge - start));
-}
-
-// How soon the line to neighbour k will be hidden.
-float hazard(const Robot& robot, int k) noexcept {
-  const Table& table = robot.table();
-  if (!robot.params.line_of_sight) return 0.0F;
-  float nearest = robot.params.clearance;
-  for (int j = 0; j < table.size(); ++j)
-    if (j != k && !robot.is_lost(j))
-      nearest = std::min(nearest, distance_to_segment(table.position(j), Vec2{}, table.position(k)));
-  return costs_hidden * (1.0F - nearest / robot.params.clearance);
 }
 
 // Without the hazard.

@@ -87,6 +87,7 @@ Output<Message> step(const Params& params, State& state, const Inputs<Heard>& in
   keep_tokens(robot, inputs.orders());
   index_neighbors(robot);
   update_role(robot);
+  remember_corners(robot);
   choose_parent(robot);
   keep_up(robot);
   call_spares(robot);
@@ -129,6 +130,7 @@ void add_to(Digest& digest, const State& s) noexcept {
     add(t.name, t.holder, t.beat, t.age, t.place, t.located, t.reached, t.urgent);
   add(s.detour.side, s.detour.contact, s.detour.origin, s.detour.goal, s.detour.leave, s.detour.span, s.detour.last_side,
       s.detour.again);
+  for (std::size_t k = 0; k < s.corner_count; ++k) add(s.corners[k]);
   s.neighbors.filter().visit(add);
 }
 

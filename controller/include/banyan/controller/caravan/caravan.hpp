@@ -30,6 +30,14 @@ void measure_silence(Robot& robot) noexcept;
 [[nodiscard]] bool is_ahead(const State& self, const Standing& m) noexcept;
 void keep_up(Robot& robot) noexcept;
 
+// ---- sight.cpp: what hides an edge ----
+
+void remember_corners(Robot& robot) noexcept;
+// What the line to neighbour k may cost soon, C: robots and corners near it.
+[[nodiscard]] float hazard(const Robot& robot, int k) noexcept;
+// Keeps corners out of the lines along my edges.
+void keep_sight(const Robot& robot, Guard& guard) noexcept;
+
 // ---- parent.cpp: principle 2 ----
 
 void choose_parent(Robot& robot) noexcept;

@@ -33,6 +33,7 @@ struct Call {
 // What neighbours remember of a robot.
 struct Standing {
   Role role = Role::spare;
+  bool pinned = false;        // a corner is about to cut the edge to its parent, and somebody below has to go on
   RobotId parent = nobody;  // the upper end of the link that ties it to the others
   RobotId other = nobody;   // the parent that it had, until that promise has ended
   Root root;
@@ -72,6 +73,7 @@ struct Message : Standing {
 
 template <class Visitor, class M> constexpr void visit_all(Visitor& visit, M& m) noexcept {
   visit.choice("role", "0 spare, 1 connector, 2 worker, 3 root", m.role, 2, Role::root);
+  visit.flag("pinned", "1: a corner is about to cut the edge to the parent", m.pinned);
   visit.robot("id", "of the sender", m.id);
   visit.robot("parent", "the upper end of the link that ties it to the others, -1: none", m.parent);
   visit.robot("other", "the parent that it had, until that promise has ended, -1: none", m.other);

@@ -27,6 +27,8 @@ struct Token {
 };
 inline constexpr std::size_t most_tokens = 33;
 
+inline constexpr std::size_t most_corners = 8;
+
 struct State : Message {
   Root newest;              // that I have heard of; my place in the order may still be that of an older one
   RobotId serves = nobody;  // the target that I hold, by its name
@@ -48,6 +50,8 @@ struct State : Message {
   std::uint8_t longest_silence = 0;  // that ended lately; 0: no packets get lost
   std::uint16_t round = 0;
   std::uint16_t since_start = 0;
+  std::array<Vec2, most_corners> corners{};  // points of obstacles that were passed; the first `corner_count`
+  std::uint8_t corner_count = 0;
   Detour detour;  // the way round an obstacle
   Tally tally;    // never read
   Table neighbors;
