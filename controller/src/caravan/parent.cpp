@@ -30,7 +30,7 @@ float cost(const Robot& robot, int k) noexcept {
   const float d = robot.range(k);
   const bool is_parent = k == robot.parent;
   float c = d + stretch(robot, d);
-  if (robot.table().age(k) > robot.hidden_after()) c += costs_silence;
+  if (robot.table().age(k) > robot.hidden_after() || robot.is_deaf(k)) c += costs_silence;
   if (is_newer(robot.self.newest, m.root)) c += costs_silence;  // it has not heard of the new root
   c += from_fixed(m.label);
   if (m.role == Role::spare) c += p.robot_cost * static_cast<float>(m.hops);
@@ -49,7 +49,7 @@ bool is_candidate(const Robot& robot, int k) noexcept {
   const Standing& m = robot.said(k);
   const bool bound = m.root.id != nobody && (m.parent != nobody || m.role == Role::root);
   const bool free = robot.parent < 0 || robot.is_lost(robot.parent);
-  return robot.table().age(k) <= 1 && bound && m.parent != robot.self.id &&
+  return robot.table().age(k) <= 1 && bound && !robot.is_deaf(k) && m.parent != robot.self.id &&
          (free || robot.range(k) < robot.params.longest_edge - margin);
 }
 

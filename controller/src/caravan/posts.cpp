@@ -12,6 +12,9 @@ bool has_post(Robot& robot) noexcept {
   State& self = robot.self;
   const bool needs = self.role != Role::spare && robot.parent >= 0 && robot.is_wanted() &&
                      robot.range(robot.parent) > robot.params.late_start;
+  // A part of the network that does not hear me: somebody else may be heard.
+  for (int k = 0; k < robot.table().size(); ++k)
+    if (robot.is_gap(k)) return true;
   if (!needs) self.unserved_rounds = 0;
   else robot.add_elapsed(self.unserved_rounds);
   return self.unserved_rounds > whole(robot.params.call_after_rounds);

@@ -22,14 +22,19 @@ void file_heard(Robot& robot, const Inputs<Heard>& inputs) noexcept {
     h.before = {};
     if (m.id == self.id || m.id == nobody) continue;
     int k = table.file(m.id, h.position, h.before, carry);
-    if (k < 0)
+    const bool is_new = k < 0;
+    if (is_new)
       k = table.enter(m.id, h.position, matters(m.id, m),
                       [&](int j) { return matters(table.id(j), table.standings[static_cast<std::size_t>(j)]); });
-    if (k >= 0) table.standings[static_cast<std::size_t>(k)] = m;
+    if (k < 0) continue;
+    const RobotId named_before = h.before == Vec2{} ? nobody : robot.said(k).named;
+    if (is_new) table.passes[static_cast<std::size_t>(k)] = 0;
+    table.standings[static_cast<std::size_t>(k)] = m;
+    note_named(robot, k, named_before);
   }
   const auto keeps = [&](int k) { return table.id(k) == self.parent || is_promised(robot, k); };
   for (int k = 0; (k = table.remove_next(k, carry, robot.liveness(), keeps)) >= 0;)
-    close_gap(table.standings, k, table.size() + 1);
+    close_gap(table.standings, k, table.size() + 1), close_gap(table.passes, k, table.size() + 1);
 }
 
 void index_neighbors(Robot& robot) noexcept {
@@ -91,6 +96,7 @@ Output<Message> step(const Params& params, State& state, const Inputs<Heard>& in
   choose_parent(robot);
   keep_up(robot);
   call_spares(robot);
+  state.named = state.neighbors.next_heard(state.named, robot.liveness());
   const Vec2 wish = clamped(goal(robot), 1.0F);
   Guard guard;
   limit_motion(robot, guard);
@@ -121,7 +127,7 @@ void add_to(Digest& digest, const State& s) noexcept {
   add(s.newest.number, s.newest.id, s.serves, s.was_sent, s.token_count, s.turn, s.urgent_turn, s.news_gap, s.since_start, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds, s.call_silence,
       s.unserved_rounds, s.expected_packets, s.missed_packets, s.loss_rounds, s.longest_silence, s.round, s.neighbors.size());
   for (int k = 0; k < s.neighbors.size(); ++k) {
-    add(s.neighbors.id(k), s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k));
+    add(s.neighbors.id(k), s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k), s.neighbors.passes[static_cast<std::size_t>(k)]);
     Message said;
     static_cast<Standing&>(said) = s.neighbors.standings[static_cast<std::size_t>(k)];
     visit_fields(visit, said);

@@ -50,6 +50,15 @@ struct Robot {
   [[nodiscard]] bool is_wanted() const noexcept {
     return self.want > 0 || (parent >= 0 && said(parent).role == Role::worker && said(parent).want > 0);
   }
+  // I hear it, but it does not hear me.
+  [[nodiscard]] bool is_deaf(int k) const noexcept {
+    constexpr int often = 2;
+    return self.neighbors.passes[static_cast<std::size_t>(k)] >= often;
+  }
+  // And nothing else joins its part of the network to mine.
+  [[nodiscard]] bool is_gap(int k) const noexcept {
+    return is_deaf(k) && !is_lost(k) && said(k).root != self.newest;
+  }
   void add_elapsed(std::uint16_t& rounds) const noexcept {
     rounds = static_cast<std::uint16_t>(std::min(rounds + elapsed_rounds, UINT16_MAX));
   }

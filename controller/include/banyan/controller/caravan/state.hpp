@@ -12,6 +12,7 @@ namespace banyan::caravan {
 
 struct Table : Neighbors {
   std::array<Standing, neighbor_capacity> standings{};
+  std::array<std::uint8_t, neighbor_capacity> passes{};  // how often in a row it has passed me over as one that it hears
 };
 
 // The root's token, or a target's: a name, a holder, a count and a place.
