@@ -12,7 +12,8 @@ constexpr float silent_by_chance = 1e-5F;  // so seldom a robot that is there is
 constexpr float some_loss = 0.005F;        // from here on silences are learnt, and this long at first
 constexpr int first_silence = 32;
 constexpr int most_silence = 100;
-constexpr int forgets_after = 64;          // rounds to be one shorter
+constexpr int forgets_after = 64;  // rounds, to be one shorter
+constexpr int forgets_burst_after = 16;
 
 // Nothing that could hide neighbour k is near the line between us.
 bool is_in_the_clear(const Robot& robot, int k) noexcept {
@@ -38,10 +39,17 @@ void measure_silence(Robot& robot) noexcept {
   self.loss_rounds = 0;
   if (loss > some_loss)
     for (float chance = 1.0F; chance > silent_by_chance; chance *= loss) ++self.loss_rounds;
-  const int ended = std::min(table.returned() - robot.elapsed_rounds, most_silence);
-  if (self.longest_silence == 0) self.longest_silence = loss > some_loss ? first_silence : 0;
-  else if (ended > self.longest_silence) self.longest_silence = static_cast<std::uint8_t>(ended);
-  else if (++self.round % forgets_after == 0) --self.longest_silence;
+  ++self.round;
+  if (self.assumed_silence == 0) self.assumed_silence = loss > some_loss ? first_silence : 0;
+  else if (self.round % forgets_after == 0) --self.assumed_silence;
+  if (self.burst > 0 && self.round % forgets_burst_after == 0) --self.burst;
+}
+
+void note_return(Robot& robot, int k, int silence) noexcept {
+  State& self = robot.self;
+  silence = std::min(silence - robot.elapsed_rounds, most_silence);
+  if (silence > robot.liveness() && robot.range(k) <= robot.params.longest_edge && is_in_the_clear(robot, k))
+    self.burst = static_cast<std::uint8_t>(silence);
 }
 
 void note_named(Robot& robot, int k, RobotId before) noexcept {
@@ -60,7 +68,7 @@ void note_named(Robot& robot, int k, RobotId before) noexcept {
 // One that is hidden has not heard me either, and stays; one that is out of reach for a burst may drive on.
 float strayed(const Robot& robot, int k) noexcept {
   const int rounds = robot.table().age(k) - robot.liveness();
-  if (robot.self.longest_silence == 0 || rounds <= 0 || !is_in_the_clear(robot, k)) return 0.0F;
+  if (robot.self.assumed_silence == 0 || rounds <= 0 || !is_in_the_clear(robot, k)) return 0.0F;
   return robot.params.speed_gain * robot.params.way_in_a_round() * static_cast<float>(rounds);
 }
 

@@ -75,6 +75,8 @@ void choose_parent(Robot& robot) noexcept {
     robot.parent = -1;
     return;
   }
+  // One change at a time, unless the parent is lost.
+  if (robot.parent >= 0 && robot.other >= 0 && !robot.is_lost(robot.parent)) return;
   std::array<float, neighbor_capacity> costs;
   const float present = robot.parent < 0
                             ? not_counted

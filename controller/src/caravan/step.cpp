@@ -21,12 +21,14 @@ void file_heard(Robot& robot, const Inputs<Heard>& inputs) noexcept {
     const Message& m = *h.message;
     h.before = {};
     if (m.id == self.id || m.id == nobody) continue;
+    const int longest = table.returned();
     int k = table.file(m.id, h.position, h.before, carry);
     const bool is_new = k < 0;
     if (is_new)
       k = table.enter(m.id, h.position, matters(m.id, m),
                       [&](int j) { return matters(table.id(j), table.standings[static_cast<std::size_t>(j)]); });
     if (k < 0) continue;
+    if (table.returned() > longest) note_return(robot, k, table.returned());
     const RobotId named_before = h.before == Vec2{} ? nobody : robot.said(k).named;
     if (is_new) table.passes[static_cast<std::size_t>(k)] = 0;
     table.standings[static_cast<std::size_t>(k)] = m;
@@ -42,9 +44,12 @@ void index_neighbors(Robot& robot) noexcept {
   const Table& table = robot.table();
   robot.parent = table.find(self.parent);
   if (robot.parent < 0) self.parent = nobody;
-  robot.add_elapsed(self.other_rounds);
-  if (self.other_rounds > robot.liveness()) self.other = nobody;  // agreed: both ends have had time to hear it
   robot.other = table.find(self.other);
+  robot.add_elapsed(self.other_rounds);
+  // The old promise ends by agreement: that robot is heard, has had time to hear me, and is joined to my root by others;
+  // or with its lease.
+  const bool agreed = robot.other >= 0 && table.age(robot.other) == 0 && robot.said(robot.other).root == self.root && self.other_rounds > robot.hidden_after();
+  if (agreed || robot.other < 0 || table.age(robot.other) > robot.lease()) self.other = nobody, robot.other = -1;
   for (int k = 0; k < table.size(); ++k) {
     const Standing& m = robot.said(k);
     if (m.parent == self.id && m.role != Role::spare) robot.children.set(k, true), ++robot.child_count;
@@ -125,7 +130,7 @@ void add_to(Digest& digest, const State& s) noexcept {
   const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };
   visit_fields(visit, static_cast<const Message&>(s));
   add(s.newest.number, s.newest.id, s.serves, s.was_sent, s.token_count, s.turn, s.urgent_turn, s.news_gap, s.since_start, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds, s.call_silence,
-      s.unserved_rounds, s.expected_packets, s.missed_packets, s.loss_rounds, s.longest_silence, s.round, s.neighbors.size());
+      s.unserved_rounds, s.expected_packets, s.missed_packets, s.loss_rounds, s.assumed_silence, s.burst, s.round, s.neighbors.size());
   for (int k = 0; k < s.neighbors.size(); ++k) {
     add(s.neighbors.id(k), s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k), s.neighbors.passes[static_cast<std::size_t>(k)]);
     Message said;

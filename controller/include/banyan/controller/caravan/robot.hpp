@@ -37,10 +37,15 @@ struct Robot {
   [[nodiscard]] float range(int k) const noexcept { return self.neighbors.range(k); }
   [[nodiscard]] bool is_root() const noexcept { return self.newest.id == self.id; }
   [[nodiscard]] bool is_tree(int k) const noexcept { return said(k).role != Role::spare; }
-  // Two clocks for silence. A robot silent for longer than this is not believed any more, and is replaced.
-  [[nodiscard]] int liveness() const noexcept { return std::max<int>(whole(params.liveness_rounds), self.loss_rounds); }
+  // Two clocks for silence. By chance a robot that is there is silent for so long once in a hundred thousand times;
+  // packets may also get lost many in a row. Beyond that it is not believed any more, and is replaced.
+  [[nodiscard]] int liveness() const noexcept {
+    return std::max<int>({whole(params.liveness_rounds), self.loss_rounds, self.burst});
+  }
   // For so long I stay near a silent robot to which I have promised it.
-  [[nodiscard]] int lease() const noexcept { return std::max(liveness(), 2 * self.longest_silence); }
+  [[nodiscard]] int lease() const noexcept {
+    return std::max(liveness(), 2 * std::max<int>(self.assumed_silence, self.burst));
+  }
   // And in the tree, where the other end may have gone to look for me, or is to be met where it died.
   [[nodiscard]] int tree_lease() const noexcept { return std::max(lease(), params.rounds(params.pursue_drives)); }
   // A silence that lost packets do not explain: something stands between us.
