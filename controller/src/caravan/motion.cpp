@@ -10,7 +10,7 @@ constexpr float pinned_start = 0.125F;
 constexpr float pinned_width = 0.05F;
 constexpr float tension_width = 0.15F;
 constexpr float slowing = 0.05F;  // the last bit to a place
-constexpr float follow_spare = 0.25F;  // a spare stays so near to its parent
+constexpr float follow_spare = 0.75F;  // a spare stays so near to its parent
 constexpr float follow_tree = 0.5F;
 
 float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
