@@ -83,7 +83,11 @@ Vec2 wait(Robot& robot) noexcept {
     if (k >= 0) return towards(robot, place_for(robot, k));
   }
   if (robot.parent < 0) return {};
-  const float reach = robot.is_tree(robot.parent) ? follow_tree : follow_spare;
+  // Where all are far apart, somebody whom it has not heard yet may depend on it.
+  constexpr float stays = 0.9F;
+  float nearest = stays;
+  for (int k = 0; k < table.size(); ++k) nearest = std::min(nearest, table.range(k));
+  const float reach = nearest > follow_tree ? stays : robot.is_tree(robot.parent) ? follow_tree : follow_spare;
   return towards(robot, robot.position(robot.parent)) * ramp(robot.range(robot.parent), reach, p.pull_width);
 }
 
@@ -117,10 +121,10 @@ Vec2 goal(Robot& robot) noexcept {
   const State& self = robot.self;
   const Params& p = robot.params;
   const float wide = 2.0F * p.clearance;  // robots under way pass lines of sight so far off
-  // The root is silent: all meet where it was, and so does one without a parent.
+  // The root is silent: all meet where it was.
   constexpr float near = 0.2F;  // C
   const Token& root = self.tokens[0];
-  if (is_cut_off(robot) || (robot.parent < 0 && !robot.is_root() && root.located))
+  if (is_cut_off(robot))
     return (norm(root.place) > near ? towards(robot, root.place) : Vec2{}) + make_room(robot, 0.0F);
   // Its upper end is lost: it goes where that was.
   if (robot.parent >= 0 && robot.is_lost(robot.parent)) return towards(robot, robot.position(robot.parent)) + make_room(robot, wide);

@@ -14,6 +14,7 @@ constexpr int urgent_rounds = 40;   // for so long a new holder has priority
 constexpr int per_round = 16;       // units of news_gap
 constexpr int gap_memory = 64;      // pieces of news
 constexpr int first_root_rounds = 200;  // by then the first root would have been heard
+constexpr float beside = 1.0F;  // C: only a robot so near to where the root was may become root
 constexpr float trust = 0.2F;       // in a place that is only remembered
 
 Token* find(State& self, RobotId name) noexcept {
@@ -153,7 +154,7 @@ bool is_silent(const Robot& robot, const Token& t) noexcept {
 // Nobody has ever heard of a root: the smallest id among those that hear each other.
 bool misses_first_root(const Robot& robot) noexcept {
   const Table& table = robot.table();
-  if (robot.self.newest.id != nobody || robot.self.since_start <= first_root_rounds || table.size() == 0) return false;
+  if (robot.self.newest.id != nobody || robot.self.since_start <= first_root_rounds + 6 * robot.lease() || table.size() == 0) return false;
   for (int k = 0; k < table.size(); ++k)
     if (!robot.is_lost(k) && table.id(k) < robot.self.id && robot.said(k).role != Role::worker) return false;
   return true;
@@ -163,7 +164,7 @@ void take_over(Robot& robot) noexcept {
   State& self = robot.self;
   if (robot.is_root() || self.serves != nobody) return;
   Token& root = self.tokens[0];
-  if (misses_first_root(robot) || (root.located && self.newest.id != nobody && is_silent(robot, root))) {
+  if (misses_first_root(robot) || (root.located && self.newest.id != nobody && norm(root.place) < beside && is_silent(robot, root))) {
     if (getenv("DBG")) std::fprintf(stderr,"%d claims root age %d number %d d %.2f lv %d r %d role %d miss %d\n", self.id, root.age, self.newest.number, (double)norm(root.place), robot.liveness(), self.since_start, (int)self.role, (int)misses_first_root(robot));
     self.root = self.newest = {advanced(self.newest.number), self.id};
     root.holder = self.id, root.age = 0, root.place = {}, root.located = true;
@@ -230,8 +231,9 @@ TokenNews told_in_turn(Robot& robot) noexcept {
 }
 
 bool is_cut_off(const Robot& robot) noexcept {
-  const State& self = robot.self;
-  return !robot.is_root() && self.tokens[0].located && self.tokens[0].age > 2 * robot.liveness() + whole(robot.params.retreat_rounds);
+  const Token& root = robot.self.tokens[0];
+  const bool known = root.located && root.holder != nobody && root.holder == robot.self.newest.id;
+  return !robot.is_root() && known && root.age > 2 * robot.lease() + whole(robot.params.retreat_rounds);
 }
 
 }  // namespace banyan::caravan
