@@ -72,8 +72,15 @@ Vec2 place_for(const Robot& robot, int k) noexcept {
 }
 
 Vec2 wait(Robot& robot) noexcept {
+  constexpr float stays = 0.9F;     // C
+  constexpr int unheard_rounds = 100;
   const Params& p = robot.params;
   const Table& table = robot.table();
+  // Where all are far apart, somebody whom it has not heard yet may depend on it.
+  float nearest = stays;
+  for (int k = 0; k < table.size(); ++k) nearest = std::min(nearest, table.range(k));
+  const bool thin = nearest > follow_tree;
+  if (thin && robot.self.assumed_silence > 0 && robot.self.since_start < unheard_rounds) return {};
   if (robot.self.call.source != nobody) {
     const int k = least_of(table.size(), not_counted, [&](int j) {
       const Call& c = robot.said(j).call;
@@ -83,11 +90,7 @@ Vec2 wait(Robot& robot) noexcept {
     if (k >= 0) return towards(robot, place_for(robot, k));
   }
   if (robot.parent < 0) return {};
-  // Where all are far apart, somebody whom it has not heard yet may depend on it.
-  constexpr float stays = 0.9F;
-  float nearest = stays;
-  for (int k = 0; k < table.size(); ++k) nearest = std::min(nearest, table.range(k));
-  const float reach = nearest > follow_tree ? stays : robot.is_tree(robot.parent) ? follow_tree : follow_spare;
+  const float reach = thin ? stays : robot.is_tree(robot.parent) ? follow_tree : follow_spare;
   return towards(robot, robot.position(robot.parent)) * ramp(robot.range(robot.parent), reach, p.pull_width);
 }
 
@@ -158,7 +161,14 @@ void limit_motion(const Robot& robot, Guard& guard) noexcept {
   const bool by_memory = robot.self.serves != nobody && robot.self.serves != robot.self.id;
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
-    if (is_promised(robot, k)) guard.add(table.position(k), p.longest_edge - table.spread() - strayed(robot, k), p.guard_rate);
+    if (is_promised(robot, k)) {
+      // Of a silent one that may have driven on I stay at least as near as I am; beyond where signals fade I come nearer.
+      constexpr float near = 0.77F;  // C
+      const float away = strayed(robot, k);
+      float longest = p.longest_edge - table.spread() - away;
+      if (away > 0.0F) longest = std::max(longest, std::min(d, near));
+      guard.add(table.position(k), longest, p.guard_rate);
+    }
     // One that is pushed does not notice, and is wrong about places from then on.
     const bool pushes = robot.said(k).role == Role::worker || by_memory;
     if (pushes && table.age(k) == 0 && d < touching + 0.05F && d > 0.0F) guard.add_limit(table.position(k) / d, std::max(0.0F, d - touching) * p.guard_rate);
