@@ -40,8 +40,8 @@ void measure_silence(Robot& robot) noexcept {
   if (loss > some_loss)
     for (float chance = 1.0F; chance > silent_by_chance; chance *= loss) ++self.loss_rounds;
   ++self.round;
-  if (self.assumed_silence == 0) self.assumed_silence = loss > some_loss ? first_silence : 0;
-  else if (self.round % forgets_after == 0) --self.assumed_silence;
+  if (loss > some_loss) self.assumed_silence = first_silence;
+  else if (self.assumed_silence > 0 && self.round % forgets_after == 0) --self.assumed_silence;
   if (self.burst > 0 && self.round % forgets_burst_after == 0) --self.burst;
 }
 
