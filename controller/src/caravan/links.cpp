@@ -67,7 +67,7 @@ void note_named(Robot& robot, int k, RobotId before) noexcept {
 
 // One that is hidden has not heard me either, and stays; one that is out of reach for a burst may drive on.
 float strayed(const Robot& robot, int k) noexcept {
-  const int rounds = robot.table().age(k) - robot.liveness();
+  const int rounds = robot.table().age(k) - robot.hidden_after();
   if (robot.self.assumed_silence == 0 || rounds <= 0 || !is_in_the_clear(robot, k)) return 0.0F;
   return robot.params.speed_gain * robot.params.way_in_a_round() * static_cast<float>(rounds);
 }
