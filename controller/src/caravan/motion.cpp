@@ -147,7 +147,7 @@ Vec2 goal(Robot& robot) noexcept {
     default: {
       const Vec2 pull = tow(robot);
       const Vec2 along = robot.obstacles.empty() || pull == Vec2{} ? pull : towards(robot, pull) * norm(pull);
-      return along + (robot.is_root() && self.want > 0 ? Vec2{} : tension(robot)) + slack(robot) + make_room(robot, p.sight_width);
+      return along + tension(robot) + slack(robot) + make_room(robot, p.sight_width);
     }
   }
 }

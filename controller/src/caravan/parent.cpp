@@ -12,6 +12,7 @@ constexpr float loose = 0.5F;             // a link of a spare, C
 constexpr float soon = 0.075F;
 constexpr float pinned_edge = 0.3F;  // at a corner edges are to be short
 constexpr float relaxed = 0.90F;       // an edge that need not grow any more is good up to here
+constexpr float costs_leaving = 4.0F;  // it goes its own way, and cannot be towed
 constexpr float costs_silence = 5.0F;  // the parent is hidden, or dead
 constexpr int most_rest = 15;          // rounds
 
@@ -21,6 +22,16 @@ float stretch(const Robot& robot, float d) noexcept {
   const float start = robot.self.role == Role::spare ? loose : robot.self.pinned  ? pinned_edge
                       : robot.is_wanted()  ? p.need_distance - soon : relaxed;
   return steep * std::max(0.0F, (d - start) / (p.longest_edge - start));
+}
+
+// Neighbour k is a worker, and from its target I reach mine.
+bool reaches_target_from(const Robot& robot, int k) noexcept {
+  const Vec2* const target = robot.self.target();
+  if (target == nullptr) return false;
+  for (const Token& t : robot.self.known())
+    if (t.holder == robot.table().id(k) && t.name != root_name && t.located)
+      return distance(t.place, *target) < robot.params.need_distance;
+  return false;
 }
 
 // Without the hazard.
@@ -34,7 +45,7 @@ float cost(const Robot& robot, int k) noexcept {
   if (is_newer(robot.self.newest, m.root)) c += costs_silence;  // it has not heard of the new root
   c += from_fixed(m.label);
   if (m.role == Role::spare) c += p.robot_cost * static_cast<float>(m.hops);
-  if (m.role == Role::worker && robot.self.want > 0) c += p.robot_cost;
+  if (m.role == Role::worker && robot.self.want > 0 && !reaches_target_from(robot, k)) c += costs_leaving;
   // The parent serves only me, and could go.
   if (robot.parent >= 0 && (is_parent || m.parent == robot.self.parent)) {
     const Standing& up = robot.said(robot.parent);
