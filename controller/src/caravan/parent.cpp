@@ -68,11 +68,10 @@ bool is_candidate(const Robot& robot, int k) noexcept {
 
 void take_parent(Robot& robot, int k) noexcept {
   State& self = robot.self;
-  if (self.parent != nobody) {
-    self.other = self.parent;
-    self.other_rounds = 0;
-  }
-  robot.other = robot.parent;
+  // The old parent is joined to the root by others, unless it believes in another root: then I join it to mine.
+  robot.other = robot.parent >= 0 && robot.said(robot.parent).root != robot.said(k).root ? robot.parent : -1;
+  self.other = robot.other < 0 ? nobody : self.parent;
+  self.other_rounds = 0;
   robot.parent = k;
   self.parent = robot.table().id(k);
   self.rests = false;
