@@ -37,6 +37,22 @@ Vec2 tow(const Robot& robot) noexcept {
   return clamped(u, 1.0F);
 }
 
+// Once all below have arrived a connector moves until its longest other edge is stretched: so the slack of a chain gathers
+// at one end, where a robot becomes superfluous.
+Vec2 compaction(const Robot& robot) noexcept {
+  constexpr float stretched = 0.91F;  // C
+  constexpr float width = 0.05F;
+  constexpr float gain = 0.8F;
+  if (robot.parent < 0) return {};
+  int longest = -1;
+  robot.children.for_each([&](int k) {
+    if (longest < 0 || robot.range(k) > robot.range(longest)) longest = k;
+  });
+  if (longest < 0) return {};
+  const float slack = std::clamp((stretched - robot.range(longest)) / width, -1.0F, 1.0F);
+  return (slack > 0.0F ? unit(robot.position(robot.parent)) : -unit(robot.position(longest))) * (slack * gain);
+}
+
 Vec2 strings(const Robot& robot, float start, float width) noexcept {
   Vec2 u;
   const auto draw = [&](int k) { u += unit(robot.position(k)) * ramp(robot.range(k), start, width); };
@@ -145,7 +161,7 @@ Vec2 goal(Robot& robot) noexcept {
       return way + make_room(robot, norm(way) > 0.0F ? wide : p.sight_width);
     }
     default: {
-      const Vec2 pull = tow(robot);
+      const Vec2 pull = self.want > 0 ? tow(robot) : compaction(robot);
       const Vec2 along = robot.obstacles.empty() || pull == Vec2{} ? pull : towards(robot, pull) * norm(pull);
       return along + tension(robot) + slack(robot) + make_room(robot, p.sight_width);
     }

@@ -11,7 +11,7 @@ constexpr float steep = 3.0F;          // what the longest edge costs beyond its
 constexpr float loose = 0.5F;             // a link of a spare, C
 constexpr float soon = 0.075F;
 constexpr float pinned_edge = 0.3F;  // at a corner edges are to be short
-constexpr float relaxed = 0.90F;       // an edge that need not grow any more is good up to here
+constexpr float relaxed = 0.93F;       // an edge that need not grow any more is good up to here
 constexpr float costs_leaving = 4.0F;  // it goes its own way, and cannot be towed
 constexpr float costs_silence = 5.0F;  // the parent is hidden, or dead
 constexpr int most_rest = 15;          // rounds
@@ -56,7 +56,7 @@ float cost(const Robot& robot, int k) noexcept {
 
 // It is heard, tied to a root, not below me as far as I know, and in reach; without a parent I take what there is.
 bool is_candidate(const Robot& robot, int k) noexcept {
-  constexpr float margin = 0.05F;  // C: a longer edge would be at its end at once
+  const float margin = robot.is_wanted() ? 0.05F : 0.02F;  // C: a longer edge would be at its end at once
   const Standing& m = robot.said(k);
   const bool bound = m.root.id != nobody && (m.parent != nobody || m.role == Role::root);
   const bool free = robot.parent < 0 || robot.is_lost(robot.parent);
