@@ -5,8 +5,8 @@
 namespace banyan::caravan {
 namespace {
 
-constexpr float fading = 0.99F;            // a round: about the last hundred count
-constexpr float prior_packets = 2.0F;      // counted as heard before the first one
+constexpr float fading = 0.99F;        // a round: about the last hundred count
+constexpr float prior_packets = 2.0F;  // counted as heard before the first one
 constexpr float largest_loss = 0.9F;
 constexpr float silent_by_chance = 1e-5F;  // so seldom a robot that is there is taken for gone
 constexpr float some_loss = 0.005F;        // from here on silences are learnt, and this long at first
@@ -21,7 +21,8 @@ bool is_in_the_clear(const Robot& robot, int k) noexcept {
   if (!robot.obstacles.empty()) return false;
   const Table& table = robot.table();
   for (int j = 0; j < table.size(); ++j)
-    if (j != k && distance_to_segment(table.position(j), Vec2{}, table.position(k)) < 3.0F * robot.params.body_radius) return false;
+    if (j != k && distance_to_segment(table.position(j), Vec2{}, table.position(k)) < 3.0F * robot.params.body_radius)
+      return false;
   return true;
 }
 
@@ -32,7 +33,9 @@ void measure_silence(Robot& robot) noexcept {
   const Table& table = robot.table();
   int missed = 0;
   for (int k = 0; table.missed() > 0 && k < table.size(); ++k)
-    if (table.age(k) == robot.elapsed_rounds && table.range(k) <= robot.params.longest_edge && is_in_the_clear(robot, k)) ++missed;
+    if (table.age(k) == robot.elapsed_rounds && table.range(k) <= robot.params.longest_edge &&
+        is_in_the_clear(robot, k))
+      ++missed;
   self.expected_packets = self.expected_packets * fading + static_cast<float>(table.expected());
   self.missed_packets = self.missed_packets * fading + static_cast<float>(missed);
   const float loss = std::min(self.missed_packets / (self.expected_packets + prior_packets), largest_loss);

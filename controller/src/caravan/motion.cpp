@@ -9,7 +9,7 @@ constexpr float tension_start = 0.15F;  // C
 constexpr float pinned_start = 0.125F;
 constexpr float pinned_width = 0.05F;
 constexpr float tension_width = 0.15F;
-constexpr float slowing = 0.05F;  // the last bit to a place
+constexpr float slowing = 0.05F;       // the last bit to a place
 constexpr float follow_spare = 0.75F;  // a spare stays so near to its parent
 constexpr float follow_tree = 0.5F;
 
@@ -19,7 +19,8 @@ float ramp(float d, float start, float width) noexcept { return std::clamp((d - 
 Vec2 towards(Robot& robot, Vec2 place) noexcept {
   constexpr float last_bit = 0.15F;  // straight, as near as obstacles allow: a dead worker may lie there
   if (robot.self.role == Role::worker && norm(place) < last_bit) return clamped(place / slowing, 1.0F);
-  return bypass({robot.obstacles, robot.params.body_radius, robot.self.id}, robot.self.detour, place) * std::min(1.0F, norm(place) / slowing);
+  return bypass({robot.obstacles, robot.params.body_radius, robot.self.id}, robot.self.detour, place) *
+         std::min(1.0F, norm(place) / slowing);
 }
 
 // A connector follows the children that still have to go on.
@@ -32,13 +33,15 @@ Vec2 tow(const Robot& robot) noexcept {
   robot.children.for_each([&](int k) {
     const Standing& m = robot.said(k);
     // A child at a corner needs its parent there before it can go round.
-    if (m.want > 0) u += unit(robot.position(k)) * (m.pinned ? ramp(robot.range(k), pinned_start, pinned_width) : ramp(robot.range(k), start, p.pull_width));
+    if (m.want > 0)
+      u += unit(robot.position(k)) *
+           (m.pinned ? ramp(robot.range(k), pinned_start, pinned_width) : ramp(robot.range(k), start, p.pull_width));
   });
   return clamped(u, 1.0F);
 }
 
-// Once all below have arrived a connector moves until its longest other edge is stretched: so the slack of a chain gathers
-// at one end, where a robot becomes superfluous.
+// Once all below have arrived a connector moves until its longest other edge is stretched: so the slack of a chain
+// gathers at one end, where a robot becomes superfluous.
 Vec2 compaction(const Robot& robot) noexcept {
   constexpr float stretched = 0.91F;  // C
   constexpr float width = 0.05F;
@@ -75,8 +78,8 @@ Vec2 slack(const Robot& robot) noexcept {
   return strings(robot, p.pull_start, p.longest_edge - p.pull_start) * gain;
 }
 
-// Where a spare that hears the call from neighbour k is to go: into the edge, if it hears both ends of it; past k, in the
-// direction in which its branch leads; else to k.
+// Where a spare that hears the call from neighbour k is to go: into the edge, if it hears both ends of it; past k, in
+// the direction in which its branch leads; else to k.
 Vec2 place_for(const Robot& robot, int k) noexcept {
   constexpr float past = 0.5F;  // C
   const Table& table = robot.table();
@@ -88,7 +91,7 @@ Vec2 place_for(const Robot& robot, int k) noexcept {
 }
 
 Vec2 wait(Robot& robot) noexcept {
-  constexpr float stays = 0.9F;     // C
+  constexpr float stays = 0.9F;  // C
   constexpr int unheard_rounds = 100;
   const Params& p = robot.params;
   const Table& table = robot.table();
@@ -124,7 +127,8 @@ Vec2 make_room(const Robot& robot, float width) noexcept {
     if (robot.is_lost(k)) continue;
     const Standing& m = robot.said(k);
     const bool linked = k == robot.parent || m.parent == robot.self.id;
-    if (!(linked && robot.is_tree(k) && robot.self.role != Role::spare)) push(table.position(k), m.role == Role::spare ? p.room : p.room_tree, p.room_gain, {});
+    if (!(linked && robot.is_tree(k) && robot.self.role != Role::spare))
+      push(table.position(k), m.role == Role::spare ? p.room : p.room_tree, p.room_gain, {});
     if (!p.line_of_sight || !robot.is_tree(k) || k == robot.parent || m.parent == robot.self.id) continue;
     const int up = table.find(m.parent);
     if (up < 0) continue;
@@ -146,14 +150,17 @@ Vec2 goal(Robot& robot) noexcept {
   if (is_cut_off(robot))
     return (norm(root.place) > near ? towards(robot, root.place) : Vec2{}) + make_room(robot, 0.0F);
   // Its upper end is lost: it goes where that was.
-  if (robot.parent >= 0 && robot.is_lost(robot.parent)) return towards(robot, robot.position(robot.parent)) + make_room(robot, wide);
+  if (robot.parent >= 0 && robot.is_lost(robot.parent))
+    return towards(robot, robot.position(robot.parent)) + make_room(robot, wide);
   switch (self.role) {
     case Role::worker: {
       const Vec2* target = self.target();
       const Vec2 way = target != nullptr && robot.parent >= 0 ? towards(robot, *target) : Vec2{};
       // At its target it gives way a little, if that lets another one reach its own.
       constexpr float fading = 0.1F;
-      const float give = target == nullptr ? 0.0F : std::clamp((p.arrival_distance * 0.95F - norm(*target)) / slowing / fading, 0.0F, 1.0F);
+      const float give = target == nullptr
+                             ? 0.0F
+                             : std::clamp((p.arrival_distance * 0.95F - norm(*target)) / slowing / fading, 0.0F, 1.0F);
       return way + clamped(slack(robot), give) + make_room(robot, 0.0F);
     }
     case Role::spare: {
@@ -178,7 +185,8 @@ void limit_motion(const Robot& robot, Guard& guard) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
     if (is_promised(robot, k)) {
-      // Of a silent one that may have driven on I stay at least as near as I am; beyond where signals fade I come nearer.
+      // Of a silent one that may have driven on I stay at least as near as I am; beyond where signals fade I come
+      // nearer.
       constexpr float near = 0.77F;  // C
       const float away = strayed(robot, k);
       float longest = p.longest_edge - table.spread() - away;
@@ -187,7 +195,8 @@ void limit_motion(const Robot& robot, Guard& guard) noexcept {
     }
     // One that is pushed does not notice, and is wrong about places from then on.
     const bool pushes = robot.said(k).role == Role::worker || by_memory;
-    if (pushes && table.age(k) == 0 && d < touching + 0.05F && d > 0.0F) guard.add_limit(table.position(k) / d, std::max(0.0F, d - touching) * p.guard_rate);
+    if (pushes && table.age(k) == 0 && d < touching + 0.05F && d > 0.0F)
+      guard.add_limit(table.position(k) / d, std::max(0.0F, d - touching) * p.guard_rate);
   }
 }
 

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 // One cost decides who is whose parent: the first choice, repair, insertion, release and merging are one rule.
-#include <array>
-
 #include "banyan/controller/caravan/caravan.hpp"
 
 namespace banyan::caravan {
 namespace {
 
-constexpr float steep = 3.0F;          // what the longest edge costs beyond its length, C
-constexpr float loose = 0.5F;             // a link of a spare, C
+constexpr float steep = 3.0F;  // what the longest edge costs beyond its length, C
+constexpr float loose = 0.5F;  // a link of a spare, C
 constexpr float soon = 0.075F;
-constexpr float pinned_edge = 0.3F;  // at a corner edges are to be short
+constexpr float pinned_edge = 0.3F;    // at a corner edges are to be short
 constexpr float relaxed = 0.93F;       // an edge that need not grow any more is good up to here
 constexpr float costs_leaving = 4.0F;  // it goes its own way, and cannot be towed
 constexpr float costs_silence = 5.0F;  // the parent is hidden, or dead
@@ -19,8 +17,10 @@ constexpr int most_rest = 15;          // rounds
 // Up to where an edge may grow it costs its length; then the more, the sooner it will hold somebody back.
 float stretch(const Robot& robot, float d) noexcept {
   const Params& p = robot.params;
-  const float start = robot.self.role == Role::spare ? loose : robot.self.pinned  ? pinned_edge
-                      : robot.is_wanted()  ? p.need_distance - soon : relaxed;
+  const float start = robot.self.role == Role::spare ? loose
+                      : robot.self.pinned            ? pinned_edge
+                      : robot.is_wanted()            ? p.need_distance - soon
+                                                     : relaxed;
   return steep * std::max(0.0F, (d - start) / (p.longest_edge - start));
 }
 
@@ -87,23 +87,22 @@ void choose_parent(Robot& robot) noexcept {
   }
   // One change at a time, unless the parent is lost.
   if (robot.parent >= 0 && robot.other >= 0 && !robot.is_lost(robot.parent)) return;
-  std::array<float, neighbor_capacity> costs;
   const float present = robot.parent < 0
                             ? not_counted
                             : cost(robot, robot.parent) + hazard(robot, robot.parent) - robot.params.hysteresis;
-  float best_cost = present;
-  for (int k = 0; k < table.size(); ++k)
-    costs[static_cast<std::size_t>(k)] = k != robot.parent && is_candidate(robot, k) ? cost(robot, k) : not_counted;
+  float best_cost = present, wish_cost = present;
   int best = -1, wish = -1;
-  float wish_cost = present;
   for (int k = 0; k < table.size(); ++k) {
-    float c = costs[static_cast<std::size_t>(k)];
+    // No term is negative: most robots are farther from the root than I am.
+    if (k == robot.parent || robot.range(k) + from_fixed(robot.said(k).label) >= std::max(best_cost, wish_cost) ||
+        !is_candidate(robot, k))
+      continue;
     const bool ahead = is_ahead(self, robot.said(k));
+    float c = cost(robot, k);
     if (c >= (ahead ? best_cost : wish_cost)) continue;
     c += hazard(robot, k);
     if (ahead && c < best_cost) best_cost = c, best = k;
-    if (!ahead && c < wish_cost && !robot.children.has(robot.table().find(robot.said(k).parent)))
-      wish_cost = c, wish = k;
+    if (!ahead && c < wish_cost && !robot.children.has(table.find(robot.said(k).parent))) wish_cost = c, wish = k;
   }
   if (best >= 0 && best_cost <= wish_cost) {
     if (robot.parent >= 0 && robot.said(best).role == Role::spare && self.role != Role::spare) ++self.tally.insertions;

@@ -41,7 +41,9 @@ void remember_corners(Robot& robot) noexcept {
   self.pinned = false;
   if (!robot.params.line_of_sight || robot.parent < 0 || !robot.is_wanted()) return;
   for (std::size_t k = 0; k < self.corner_count; ++k)
-    if (const Passing by = passing(robot.position(robot.parent), self.corners[k]); by.share > 0.0F && by.share < 1.0F && norm(by.off) < corner_room) self.pinned = true;
+    if (const Passing by = passing(robot.position(robot.parent), self.corners[k]);
+        by.share > 0.0F && by.share < 1.0F && norm(by.off) < corner_room)
+      self.pinned = true;
 }
 
 float hazard(const Robot& robot, int k) noexcept {
@@ -49,9 +51,12 @@ float hazard(const Robot& robot, int k) noexcept {
   if (!robot.params.line_of_sight) return 0.0F;
   float share = 1.0F;  // of the clearance that is left
   for (int j = 0; j < table.size(); ++j)
-    if (j != k && !robot.is_lost(j)) share = std::min(share, distance_to_segment(table.position(j), Vec2{}, table.position(k)) / robot.params.clearance);
+    if (j != k && !robot.is_lost(j))
+      share =
+          std::min(share, distance_to_segment(table.position(j), Vec2{}, table.position(k)) / robot.params.clearance);
   for (std::size_t j = 0; j < robot.self.corner_count; ++j)
-    if (const Passing by = passing(table.position(k), robot.self.corners[j]); by.share > 0.0F && by.share < 1.0F) share = std::min(share, norm(by.off) / corner_room);
+    if (const Passing by = passing(table.position(k), robot.self.corners[j]); by.share > 0.0F && by.share < 1.0F)
+      share = std::min(share, norm(by.off) / corner_room);
   return costs_hidden * (1.0F - share);
 }
 

@@ -46,9 +46,10 @@ void index_neighbors(Robot& robot) noexcept {
   if (robot.parent < 0) self.parent = nobody;
   robot.other = table.find(self.other);
   robot.add_elapsed(self.other_rounds);
-  // The old promise ends by agreement: that robot is heard, has had time to hear me, and is joined to my root by others;
-  // or with its lease.
-  const bool agreed = robot.other >= 0 && table.age(robot.other) == 0 && robot.said(robot.other).root == self.root && self.other_rounds > robot.hidden_after();
+  // The old promise ends by agreement: that robot is heard, has had time to hear me, and is joined to my root by
+  // others; or with its lease.
+  const bool agreed = robot.other >= 0 && table.age(robot.other) == 0 && robot.said(robot.other).root == self.root &&
+                      self.other_rounds > robot.hidden_after();
   if (agreed || robot.other < 0 || table.age(robot.other) > robot.lease()) self.other = nobody, robot.other = -1;
   for (int k = 0; k < table.size(); ++k) {
     const Standing& m = robot.said(k);
@@ -63,7 +64,10 @@ void update_role(Robot& robot) noexcept {
   if (robot.child_count > 0) self.childless_rounds = 0;
   else robot.add_elapsed(self.childless_rounds);
   const bool needed = robot.child_count > 0 || (self.role == Role::connector && self.childless_rounds <= patience);
-  self.role = robot.is_root() ? Role::root : self.serves != nobody ? Role::worker : needed ? Role::connector : Role::spare;
+  self.role = robot.is_root()         ? Role::root
+              : self.serves != nobody ? Role::worker
+              : needed                ? Role::connector
+                                      : Role::spare;
   self.children = static_cast<std::uint8_t>(robot.child_count);
   float want = 0.0F;
   const float rests_within = 0.4F * robot.params.arrival_distance;
@@ -129,18 +133,19 @@ void add_to(Digest& digest, const State& s) noexcept {
   FieldDigest visit{digest};
   const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };
   visit_fields(visit, static_cast<const Message&>(s));
-  add(s.newest.number, s.newest.id, s.serves, s.was_sent, s.token_count, s.turn, s.urgent_turn, s.news_gap, s.since_start, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds, s.call_silence,
-      s.unserved_rounds, s.expected_packets, s.missed_packets, s.loss_rounds, s.assumed_silence, s.burst, s.round, s.neighbors.size());
+  add(s.newest.number, s.newest.id, s.serves, s.was_sent, s.token_count, s.turn, s.urgent_turn, s.news_gap,
+      s.since_start, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds, s.call_silence, s.unserved_rounds,
+      s.expected_packets, s.missed_packets, s.loss_rounds, s.assumed_silence, s.burst, s.round, s.neighbors.size());
   for (int k = 0; k < s.neighbors.size(); ++k) {
-    add(s.neighbors.id(k), s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k), s.neighbors.passes[static_cast<std::size_t>(k)]);
+    add(s.neighbors.id(k), s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k),
+        s.neighbors.passes[static_cast<std::size_t>(k)]);
     Message said;
     static_cast<Standing&>(said) = s.neighbors.standings[static_cast<std::size_t>(k)];
     visit_fields(visit, said);
   }
-  for (const Token& t : s.known())
-    add(t.name, t.holder, t.beat, t.age, t.place, t.located, t.reached, t.urgent);
-  add(s.detour.side, s.detour.contact, s.detour.origin, s.detour.goal, s.detour.leave, s.detour.span, s.detour.last_side,
-      s.detour.again);
+  for (const Token& t : s.known()) add(t.name, t.holder, t.beat, t.age, t.place, t.located, t.reached, t.urgent);
+  add(s.detour.side, s.detour.contact, s.detour.origin, s.detour.goal, s.detour.leave, s.detour.span,
+      s.detour.last_side, s.detour.again);
   for (std::size_t k = 0; k < s.corner_count; ++k) add(s.corners[k]);
   s.neighbors.filter().visit(add);
 }

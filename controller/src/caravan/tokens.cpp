@@ -8,20 +8,38 @@
 namespace banyan::caravan {
 namespace {
 
-constexpr int takeover_beats = 60;  // a new holder's count starts so far ahead of the news under way
-constexpr int rival_beats = 30;     // a count farther behind mine is that of a dead holder
-constexpr int urgent_rounds = 40;   // for so long a new holder has priority
-constexpr int per_round = 16;       // units of news_gap
-constexpr int gap_memory = 64;      // pieces of news
+constexpr int takeover_beats = 60;      // a new holder's count starts so far ahead of the news under way
+constexpr int rival_beats = 30;         // a count farther behind mine is that of a dead holder
+constexpr int urgent_rounds = 40;       // for so long a new holder has priority
+constexpr int per_round = 16;           // units of news_gap
+constexpr int gap_memory = 64;          // pieces of news
 constexpr int first_root_rounds = 200;  // by then the first root would have been heard
-constexpr float beside = 1.0F;  // C: only a robot so near to where the root was may become root
-constexpr float trust = 0.2F;       // in a place that is only remembered
+constexpr float beside = 1.0F;          // C: only a robot so near to where the root was may become root
+constexpr float trust = 0.2F;           // in a place that is only remembered
 
 Token* find(State& self, RobotId name) noexcept {
   for (Token& t : self.known())
     if (t.name == name) return &t;
   return nullptr;
 }
+
+// Finds tokens by the last bits of their names: every packet is about one.
+class Index {
+ public:
+  explicit Index(State& self) noexcept : tokens_(self.tokens) {
+    for (std::size_t k = 0; k < self.token_count; ++k) at_[tokens_[k].name % places] = static_cast<std::uint8_t>(k);
+  }
+  // Null if it is not known, or another one has its place.
+  [[nodiscard]] Token* find(RobotId name) const noexcept {
+    Token& t = tokens_[at_[name % places]];
+    return t.name == name ? &t : nullptr;
+  }
+
+ private:
+  static constexpr std::size_t places = 64;
+  std::array<Token, most_tokens>& tokens_;
+  std::array<std::uint8_t, places> at_{};
+};
 
 // Memory for most_tokens; of more targets the nearest are kept.
 Token* add(State& self, RobotId name, Vec2 place) noexcept {
@@ -33,7 +51,8 @@ Token* add(State& self, RobotId name, Vec2 place) noexcept {
   }
   Token* farthest = nullptr;
   for (Token& t : self.known())
-    if (t.name != root_name && t.name != self.serves && (farthest == nullptr || norm(t.place) > norm(farthest->place))) farthest = &t;
+    if (t.name != root_name && t.name != self.serves && (farthest == nullptr || norm(t.place) > norm(farthest->place)))
+      farthest = &t;
   if (farthest == nullptr || norm(farthest->place) <= norm(place)) return nullptr;
   *farthest = {};
   farthest->name = name;
@@ -47,7 +66,9 @@ void announce(Token& t, RobotId holder) noexcept {
   t.urgent = urgent_rounds;
 }
 
-bool is_there(const Robot& robot, const Token& t) noexcept { return t.located && norm(t.place) <= robot.params.arrival_distance; }
+bool is_there(const Robot& robot, const Token& t) noexcept {
+  return t.located && norm(t.place) <= robot.params.arrival_distance;
+}
 
 // First the one that is there, then the robot first sent, then the smaller id.
 bool has_precedence(RobotId a, bool a_reached, RobotId b, bool b_reached, RobotId name) noexcept {
@@ -61,7 +82,8 @@ void hear_token(Robot& robot, const Heard& h) noexcept {
   if (news.name == nobody) return;
   // What the sender wrote refers to where both were a round ago; over a distance an old bearing makes a large error.
   const bool told = news.told == self.id && !(h.before == Vec2{});
-  const Vec2 place = robot.carry.point({}) + from_edge_frame({news.x.value(), news.y.value()}, robot.carry.vector(h.before));
+  const Vec2 place =
+      robot.carry.point({}) + from_edge_frame({news.x.value(), news.y.value()}, robot.carry.vector(h.before));
   Token* t = find(self, news.name);
   if (t == nullptr) {
     if (!told || (t = add(self, news.name, place)) == nullptr) return;
@@ -154,7 +176,9 @@ bool is_silent(const Robot& robot, const Token& t) noexcept {
 // Nobody has ever heard of a root: the smallest id among those that hear each other.
 bool misses_first_root(const Robot& robot) noexcept {
   const Table& table = robot.table();
-  if (robot.self.newest.id != nobody || robot.self.since_start <= first_root_rounds + 6 * robot.lease() || table.size() == 0) return false;
+  if (robot.self.newest.id != nobody || robot.self.since_start <= first_root_rounds + 6 * robot.lease() ||
+      table.size() == 0)
+    return false;
   for (int k = 0; k < table.size(); ++k)
     if (!robot.is_lost(k) && table.id(k) < robot.self.id && robot.said(k).role != Role::worker) return false;
   return true;
@@ -164,8 +188,12 @@ void take_over(Robot& robot) noexcept {
   State& self = robot.self;
   if (robot.is_root() || self.serves != nobody) return;
   Token& root = self.tokens[0];
-  if (misses_first_root(robot) || (root.located && self.newest.id != nobody && norm(root.place) < beside && is_silent(robot, root))) {
-    if (getenv("DBG")) std::fprintf(stderr,"%d claims root age %d number %d d %.2f lv %d r %d role %d miss %d\n", self.id, root.age, self.newest.number, (double)norm(root.place), robot.liveness(), self.since_start, (int)self.role, (int)misses_first_root(robot));
+  if (misses_first_root(robot) ||
+      (root.located && self.newest.id != nobody && norm(root.place) < beside && is_silent(robot, root))) {
+    if (getenv("DBG"))
+      std::fprintf(stderr, "%d claims root age %d number %d d %.2f lv %d r %d role %d miss %d\n", self.id, root.age,
+                   self.newest.number, (double)norm(root.place), robot.liveness(), self.since_start, (int)self.role,
+                   (int)misses_first_root(robot));
     self.root = self.newest = {advanced(self.newest.number), self.id};
     root.holder = self.id, root.age = 0, root.place = {}, root.located = true;
     self.parent = nobody;
@@ -175,7 +203,10 @@ void take_over(Robot& robot) noexcept {
   if (self.role != Role::spare || root.age > 2 * robot.liveness()) return;
   for (Token& t : self.known()) {
     if (t.name == root_name || !t.located || t.holder == nobody || !is_silent(robot, t)) continue;
-    if (getenv("DBG")) std::fprintf(stderr,"%d takes %d age %d gap %d way %d lv %d d %.2f r %d\n", self.id, t.name, t.age, self.news_gap/16, way_of_news(robot,t), robot.liveness(), (double)norm(t.place), self.since_start);
+    if (getenv("DBG"))
+      std::fprintf(stderr, "%d takes %d age %d gap %d way %d lv %d d %.2f r %d\n", self.id, t.name, t.age,
+                   self.news_gap / 16, way_of_news(robot, t), robot.liveness(), (double)norm(t.place),
+                   self.since_start);
     self.serves = t.name;
     announce(t, self.id);
     ++self.tally.replacements;
@@ -189,7 +220,8 @@ void take_over(Robot& robot) noexcept {
 void follow_orders(Robot& robot, const Orders& orders) noexcept {
   State& self = robot.self;
   const bool called_back = self.was_sent && (!orders.sent || orders.given_up == self.id);
-  if (self.serves != nobody && ((called_back && self.serves == self.id) || self.serves == orders.given_up)) self.serves = nobody;
+  if (self.serves != nobody && ((called_back && self.serves == self.id) || self.serves == orders.given_up))
+    self.serves = nobody;
   if (orders.sent && (!self.was_sent || called_back)) self.serves = self.id;
   self.was_sent = orders.sent;
 }
@@ -203,12 +235,21 @@ void keep_tokens(Robot& robot, const Orders& orders) noexcept {
   }
   mind_own(robot, orders);
   follow_root(robot);
-  for (const Heard& h : robot.heard)
+  const Index index(self);
+  for (const Heard& h : robot.heard) {
+    // Most news is old: no newer count of what others hold, told to somebody else.
+    const TokenNews& news = h.message->token;
+    if (news.told != self.id && news.name != self.serves)
+      if (const Token* t = index.find(news.name);
+          t != nullptr && (news.name == root_name || !is_news(news.beat, t->beat, t->age)))
+        continue;
     if (h.message->id != self.id) hear_token(robot, h);
+  }
   take_over(robot);
 }
 
-// The next token, or every second time the next that is urgent; the neighbour that is told places changes with each turn.
+// The next token, or every second time the next that is urgent; the neighbour that is told places changes with each
+// turn.
 TokenNews told_in_turn(Robot& robot) noexcept {
   State& self = robot.self;
   const Table& table = robot.table();

@@ -26,8 +26,7 @@ float allowed_cosine(const Surroundings& robot, float d) noexcept {
 bool is_blocked(const Surroundings& robot, Vec2 direction, Vec2 obstacle) noexcept {
   constexpr float rounding = 1e-3F;  // what sweep() finds is free
   const float d = norm(obstacle);
-  return d < robot.body_radius + obstacle_near &&
-         dot(direction, obstacle) > (allowed_cosine(robot, d) + rounding) * d;
+  return d < robot.body_radius + obstacle_near && dot(direction, obstacle) > (allowed_cosine(robot, d) + rounding) * d;
 }
 
 // Index of the first obstacle in the way, -1 if the direction is free.

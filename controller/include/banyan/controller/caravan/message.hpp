@@ -33,9 +33,9 @@ struct Call {
 // What neighbours remember of a robot.
 struct Standing {
   Role role = Role::spare;
-  bool pinned = false;        // a corner is about to cut the edge to its parent, and somebody below has to go on
+  bool pinned = false;      // a corner is about to cut the edge to its parent, and somebody below has to go on
   RobotId parent = nobody;  // the upper end of the link that ties it to the others
-  RobotId named = nobody;     // a neighbour that it hears, by ascending ids round and round
+  RobotId named = nobody;   // a neighbour that it hears, by ascending ids round and round
   RobotId other = nobody;   // the parent that it had, until that promise has ended
   Root root;
   Serial beat = 0;            // its place in the order: the root's count of rounds, less one a hop at least

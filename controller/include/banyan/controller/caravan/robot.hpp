@@ -61,9 +61,7 @@ struct Robot {
     return self.neighbors.passes[static_cast<std::size_t>(k)] >= often;
   }
   // And nothing else joins its part of the network to mine.
-  [[nodiscard]] bool is_gap(int k) const noexcept {
-    return is_deaf(k) && !is_lost(k) && said(k).root != self.newest;
-  }
+  [[nodiscard]] bool is_gap(int k) const noexcept { return is_deaf(k) && !is_lost(k) && said(k).root != self.newest; }
   void add_elapsed(std::uint16_t& rounds) const noexcept {
     rounds = static_cast<std::uint16_t>(std::min(rounds + elapsed_rounds, UINT16_MAX));
   }

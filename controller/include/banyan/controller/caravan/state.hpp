@@ -2,8 +2,8 @@
 // All that a robot of caravan remembers between two steps.
 #pragma once
 
-#include "banyan/controller/caravan/message.hpp"
 #include <span>
+#include "banyan/controller/caravan/message.hpp"
 
 #include "banyan/controller/core/neighbors.hpp"
 #include "banyan/controller/obstacles/way_round.hpp"
@@ -12,7 +12,8 @@ namespace banyan::caravan {
 
 struct Table : Neighbors {
   std::array<Standing, neighbor_capacity> standings{};
-  std::array<std::uint8_t, neighbor_capacity> passes{};  // how often in a row it has passed me over as one that it hears
+  std::array<std::uint8_t, neighbor_capacity>
+      passes{};  // how often in a row it has passed me over as one that it hears
 };
 
 // The root's token, or a target's: a name, a holder, a count and a place.
@@ -35,19 +36,20 @@ struct State : Message {
   RobotId serves = nobody;  // the target that I hold, by its name
   bool was_sent = false;
   std::uint8_t token_count = 1;
-  std::uint8_t turn = 0;    // which token is told next
+  std::uint8_t turn = 0;  // which token is told next
   std::uint8_t urgent_turn = 0;
-  std::uint16_t news_gap = 200;  // sixteenths of rounds: the longest time of late without news of a holder that was there
+  std::uint16_t news_gap =
+      200;  // sixteenths of rounds: the longest time of late without news of a holder that was there
   std::array<Token, most_tokens> tokens{};  // the first `token_count`; the root's is the first
-  bool rests = false;              // its beat, so that another robot gets ahead
-  std::uint16_t other_rounds = 0;  // for how long the old promise has stood beside the new one
+  bool rests = false;                       // its beat, so that another robot gets ahead
+  std::uint16_t other_rounds = 0;           // for how long the old promise has stood beside the new one
   std::uint16_t rest_rounds = 0;
   std::uint16_t childless_rounds = 0;
   std::uint16_t call_silence = 0;  // since the count of the call advanced
   std::uint16_t unserved_rounds = 0;
-  float expected_packets = 0.0F;   // that were to be heard of late, fading
-  float missed_packets = 0.0F;     // and of them those that were not
-  std::uint16_t loss_rounds = 0;   // for so long a robot that is there may be silent by chance; 0: no packets get lost
+  float expected_packets = 0.0F;  // that were to be heard of late, fading
+  float missed_packets = 0.0F;    // and of them those that were not
+  std::uint16_t loss_rounds = 0;  // for so long a robot that is there may be silent by chance; 0: no packets get lost
   std::uint8_t assumed_silence = 0;  // packets get lost: so long a promise may have to last, less as time goes by
   std::uint8_t burst = 0;            // the longest silence that ended of late and that chance does not explain
   std::uint16_t round = 0;
