@@ -84,6 +84,7 @@ Vec2 place_for(const Robot& robot, int k) noexcept {
   constexpr float past = 0.5F;  // C
   const Table& table = robot.table();
   const Vec2 at = table.position(k);
+  if (robot.said(k).call.hops == 0 && robot.said(k).leaving) return at - unit(at) * (2.0F * robot.params.room);
   const int up = robot.is_tree(k) ? table.find(robot.said(k).parent) : -1;
   if (up < 0) return at;
   const Vec2 edge = table.position(up) - at;
@@ -100,7 +101,11 @@ Vec2 wait(Robot& robot) noexcept {
   for (int k = 0; k < table.size(); ++k) nearest = std::min(nearest, table.range(k));
   const bool thin = nearest > follow_tree;
   if (thin && robot.self.assumed_silence > 0 && robot.self.since_start < unheard_rounds) return {};
-  if (robot.self.call.source != nobody) {
+  if (const Token* place = charging_place(robot); place != nullptr) {
+    constexpr float at_place = 0.2F;  // C
+    return norm(place->place) > at_place ? towards(robot, place->place) : Vec2{};
+  }
+  if (robot.self.call.source != nobody && !robot.self.leaving) {
     const int k = least_of(table.size(), not_counted, [&](int j) {
       const Call& c = robot.said(j).call;
       const bool leads = table.age(j) <= 1 && c.source == robot.self.call.source && c.hops < robot.self.call.hops;

@@ -22,6 +22,9 @@ constexpr Parameter<Params> rows[] = {
     {{"takeover_rounds", "", "rounds", "a holder silent for so long beyond 2 I is replaced", "Longer where news is slow.", "caravan", 0.0F, 10000.0F}, &Params::takeover_rounds},
     {{"takeover_spread", "", "rounds/C", "so much later for each C from its place", "Longer, and fewer robots claim at once.", "caravan", 0.0F, 1000.0F}, &Params::takeover_spread},
     {{"retreat_rounds", "", "rounds", "the root silent for so long beyond 2 I: all go where it was", "Longer where the radio fails for a while.", "caravan", 0.0F, 10000.0F}, &Params::retreat_rounds},
+    {{"relieve_below", "", "", "batteries: a robot of the tree with less charge asks to be relieved", "Enough for the wait and the way.", "caravan", 0.0F, 1.0F}, &Params::relieve_below},
+    {{"ready_above", "", "", "batteries: a spare with less charge joins no edge", "Above relieve_below.", "caravan", 0.0F, 1.0F}, &Params::ready_above},
+    {{"charge_below", "", "", "batteries: a spare with less charge goes to be charged", "Larger keeps spares full and makes more trips.", "caravan", 0.0F, 1.0F}, &Params::charge_below},
     {{"guard_rate", "", "1/drive", "how soon links are kept from growing", "Larger uses more of their length.", "caravan", 1.0F, 50.0F}, &Params::guard_rate},
     {{"call_after_rounds", "", "rounds", "an edge calls spares from afar after waiting so long", "Longer keeps spares where they are.", "caravan", 0.0F, 1000.0F}, &Params::call_after_rounds},
 };

@@ -10,7 +10,7 @@ constexpr float loose = 0.5F;  // a link of a spare, C
 constexpr float soon = 0.075F;
 constexpr float pinned_edge = 0.3F;    // at a corner edges are to be short
 constexpr float relaxed = 0.93F;       // an edge that need not grow any more is good up to here
-constexpr float costs_leaving = 4.0F;  // it goes its own way, and cannot be towed
+constexpr float costs_leaving = 4.0F;  // it goes its own way and cannot be towed, or runs low
 constexpr float costs_silence = 5.0F;  // the parent is hidden, or dead
 constexpr int most_rest = 15;          // rounds
 
@@ -45,6 +45,7 @@ float cost(const Robot& robot, int k) noexcept {
   if (is_newer(robot.self.newest, m.root)) c += costs_silence;  // it has not heard of the new root
   c += from_fixed(m.label);
   if (m.role == Role::spare) c += p.robot_cost * static_cast<float>(m.hops);
+  if (m.leaving) c += costs_leaving;
   if (m.role == Role::worker && robot.self.want > 0 && !reaches_target_from(robot, k)) c += costs_leaving;
   // The parent serves only me, and could go.
   if (robot.parent >= 0 && (is_parent || m.parent == robot.self.parent)) {

@@ -15,6 +15,7 @@ bool has_post(Robot& robot) noexcept {
   // A part of the network that does not hear me: somebody else may be heard.
   for (int k = 0; k < robot.table().size(); ++k)
     if (robot.is_gap(k)) return true;
+  if (self.leaving && self.role != Role::spare) return true;
   if (!needs) self.unserved_rounds = 0;
   else robot.add_elapsed(self.unserved_rounds);
   return self.unserved_rounds > whole(robot.params.call_after_rounds);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <cstdio>
-#include <cstdlib>
 // The root and the holders of targets are the same thing: a token, whose holder counts rounds. All robots pass on the
 // newest counts and the places; the nearest free robot takes the token of a holder that has fallen silent.
 #include "banyan/controller/caravan/caravan.hpp"
@@ -76,6 +74,14 @@ bool has_precedence(RobotId a, bool a_reached, RobotId b, bool b_reached, RobotI
   return a == name || (b != name && a < b);
 }
 
+void become_root(Robot& robot) noexcept {
+  State& self = robot.self;
+  Token& root = self.tokens[0];
+  self.root = self.newest = {advanced(self.newest.number), self.id};
+  root.holder = self.id, root.age = 0, root.place = {}, root.located = true;
+  self.parent = nobody;
+}
+
 void hear_token(Robot& robot, const Heard& h) noexcept {
   State& self = robot.self;
   const TokenNews& news = h.message->token;
@@ -99,6 +105,7 @@ void hear_token(Robot& robot, const Heard& h) noexcept {
     else if (by_memory) t->place += (place - t->place) * trust;
     t->located = true;
   }
+  t->charging |= news.charging;
   if (news.name == self.serves) {
     if (news.holder == self.id || news.holder == nobody || ahead_by(news.beat, t->beat) < -rival_beats) return;
     if (has_precedence(news.holder, news.reached, self.id, t->reached, news.name)) {
@@ -109,7 +116,15 @@ void hear_token(Robot& robot, const Heard& h) noexcept {
     }
     return;
   }
-  if (news.holder == self.id && news.name != root_name) return;  // old news, from before I resigned
+  if (news.holder == self.id) {
+    // Handed over to me; or old news, from before I resigned.
+    const bool mine = self.role == Role::spare && !robot.is_root() && self.serves == nobody;
+    if (news.name == root_name ? mine && h.message->id == self.newest.id : mine && is_news(news.beat, t->beat, t->age)) {
+      if (news.name == root_name) become_root(robot);
+      else self.serves = news.name, announce(*t, self.id);
+    }
+    return;
+  }
   // The beats of the root's token are those of the order, which are heard from everybody.
   if (news.name != root_name && is_news(news.beat, t->beat, t->age)) {
     if (news.holder == t->holder) {
@@ -150,10 +165,16 @@ void mind_own(Robot& robot, const Orders& orders) noexcept {
   if (orders.target && self.was_sent) {
     Token* t = find(self, self.id);
     if (t == nullptr) t = add(self, self.id, *orders.target);
-    if (t != nullptr) t->place = *orders.target, t->located = true;
+    if (t != nullptr) t->place = *orders.target, t->located = true, t->charging = orders.charging_place;
   }
   if (self.serves == nobody) return;
   if (Token* t = find(self, self.serves); t != nullptr) {
+    if (const int k = self.leaving ? heir(robot) : -1; k >= 0 && t->located) {
+      self.serves = nobody;
+      announce(*t, robot.table().id(k));
+      ++self.tally.handovers;
+      return;
+    }
     t->holder = self.id, t->age = 0, t->reached = is_there(robot, *t);
     t->beat = advanced(t->beat, robot.elapsed_rounds);
   }
@@ -190,23 +211,13 @@ void take_over(Robot& robot) noexcept {
   Token& root = self.tokens[0];
   if (misses_first_root(robot) ||
       (root.located && self.newest.id != nobody && norm(root.place) < beside && is_silent(robot, root))) {
-    if (getenv("DBG"))
-      std::fprintf(stderr, "%d claims root age %d number %d d %.2f lv %d r %d role %d miss %d\n", self.id, root.age,
-                   self.newest.number, (double)norm(root.place), robot.liveness(), self.since_start, (int)self.role,
-                   (int)misses_first_root(robot));
-    self.root = self.newest = {advanced(self.newest.number), self.id};
-    root.holder = self.id, root.age = 0, root.place = {}, root.located = true;
-    self.parent = nobody;
+    become_root(robot);
     ++self.tally.elections;
     return;
   }
   if (self.role != Role::spare || root.age > 2 * robot.liveness()) return;
   for (Token& t : self.known()) {
     if (t.name == root_name || !t.located || t.holder == nobody || !is_silent(robot, t)) continue;
-    if (getenv("DBG"))
-      std::fprintf(stderr, "%d takes %d age %d gap %d way %d lv %d d %.2f r %d\n", self.id, t.name, t.age,
-                   self.news_gap / 16, way_of_news(robot, t), robot.liveness(), (double)norm(t.place),
-                   self.since_start);
     self.serves = t.name;
     announce(t, self.id);
     ++self.tally.replacements;
@@ -239,7 +250,7 @@ void keep_tokens(Robot& robot, const Orders& orders) noexcept {
   for (const Heard& h : robot.heard) {
     // Most news is old: no newer count of what others hold, told to somebody else.
     const TokenNews& news = h.message->token;
-    if (news.told != self.id && news.name != self.serves)
+    if (news.told != self.id && news.holder != self.id && news.name != self.serves)
       if (const Token* t = index.find(news.name);
           t != nullptr && (news.name == root_name || !is_news(news.beat, t->beat, t->age)))
         continue;
@@ -263,7 +274,10 @@ TokenNews told_in_turn(Robot& robot) noexcept {
     self.urgent_turn = next;
   }
   const Token& t = self.tokens[next];
-  TokenNews news{t.name, t.holder, t.beat, t.reached, nobody, {}, {}};
+  TokenNews news{t.name, t.holder, t.beat, t.reached, t.charging, nobody, {}, {}};
+  // A root that runs low offers its token to a robot beside it.
+  if (t.name == root_name && robot.is_root() && self.leaving)
+    if (const int k = heir(robot); k >= 0) news.holder = table.id(k);
   if (const int k = t.located ? table.find(self.token.told) : -1; k >= 0 && table.age(k) == 0) {
     news.told = self.token.told;
     write_in_edge_frame(t.place - table.position(k), table.position(k), news.x, news.y);

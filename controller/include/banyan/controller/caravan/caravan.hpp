@@ -46,6 +46,14 @@ void keep_sight(const Robot& robot, Guard& guard) noexcept;
 void choose_parent(Robot& robot) noexcept;
 void take_parent(Robot& robot, int k) noexcept;  // the one function that changes a parent
 
+// ---- power.cpp: batteries ----
+
+void watch_charge(Robot& robot, const Inputs<Heard>& inputs) noexcept;
+// The place where I am to be charged; null: not now, or none is known.
+[[nodiscard]] const Token* charging_place(const Robot& robot) noexcept;
+// A robot beside me that may take over what I hold, -1: none.
+[[nodiscard]] int heir(const Robot& robot) noexcept;
+
 // ---- posts.cpp: principle 3 ----
 
 void call_spares(Robot& robot) noexcept;

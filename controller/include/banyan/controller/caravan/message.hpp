@@ -34,6 +34,7 @@ struct Call {
 struct Standing {
   Role role = Role::spare;
   bool pinned = false;      // a corner is about to cut the edge to its parent, and somebody below has to go on
+  bool leaving = false;    // it runs low, and has to be relieved; a spare: it has too little charge to join
   RobotId parent = nobody;  // the upper end of the link that ties it to the others
   RobotId named = nobody;   // a neighbour that it hears, by ascending ids round and round
   RobotId other = nobody;   // the parent that it had, until that promise has ended
@@ -57,6 +58,7 @@ struct TokenNews {
   RobotId holder = nobody;  // nobody: it has been given up
   Serial beat = 0;          // the holder's count of rounds
   bool reached = false;     // the holder is there
+  bool charging = false;    // the place is one to be charged at
   RobotId told = nobody;    // the neighbour that is told the place
   Coordinate x;             // the place - that neighbour, in the frame of the edge to it
   Coordinate y;
@@ -75,6 +77,7 @@ struct Message : Standing {
 template <class Visitor, class M> constexpr void visit_all(Visitor& visit, M& m) noexcept {
   visit.choice("role", "0 spare, 1 connector, 2 worker, 3 root", m.role, 2, Role::root);
   visit.flag("pinned", "1: a corner is about to cut the edge to the parent", m.pinned);
+  visit.flag("leaving", "1: it has to be relieved; a spare: it has too little charge to join", m.leaving);
   visit.robot("id", "of the sender", m.id);
   visit.robot("parent", "the upper end of the link that ties it to the others, -1: none", m.parent);
   visit.robot("named", "a neighbour that it hears, by ascending ids round and round, -1: none", m.named);
@@ -90,6 +93,7 @@ template <class Visitor, class M> constexpr void visit_all(Visitor& visit, M& m)
   visit.number("call_count", "of that robot, modulo 256", m.call.count);
   visit.number("call_hops", "from that robot", m.call.hops);
   visit.flag("token_reached", "1: the holder of `token` is at its place", m.token.reached);
+  visit.flag("token_charging", "1: the place of `token` is one to be charged at", m.token.charging);
   visit.robot("token", "a token in turn: a target, by the robot first sent there, or 65534: the root; -1: none",
               m.token.name);
   visit.robot("token_holder", "the robot that holds it, -1: it has been given up", m.token.holder);
