@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A robot has one goal, which follows from its role, and one filter.
+#include <iterator>
+
 #include "banyan/controller/caravan/caravan.hpp"
 
 namespace banyan::caravan {
@@ -78,46 +80,6 @@ Vec2 slack(const Robot& robot) noexcept {
   return strings(robot, p.pull_start, p.longest_edge - p.pull_start) * gain;
 }
 
-// Where a spare that hears the call from neighbour k is to go: into the edge, if it hears both ends of it; past k, in
-// the direction in which its branch leads; else to k.
-Vec2 place_for(const Robot& robot, int k) noexcept {
-  constexpr float past = 0.5F;  // C
-  const Table& table = robot.table();
-  const Vec2 at = table.position(k);
-  if (robot.said(k).call.hops == 0 && robot.said(k).leaving) return at - unit(at) * (2.0F * robot.params.room);
-  const int up = robot.is_tree(k) ? table.find(robot.said(k).parent) : -1;
-  if (up < 0) return at;
-  const Vec2 edge = table.position(up) - at;
-  return robot.said(k).call.hops == 0 ? at + edge * 0.5F : at - unit(edge) * past;
-}
-
-Vec2 wait(Robot& robot) noexcept {
-  constexpr float stays = 0.9F;  // C
-  constexpr int unheard_rounds = 100;
-  const Params& p = robot.params;
-  const Table& table = robot.table();
-  // Where all are far apart, somebody whom it has not heard yet may depend on it.
-  float nearest = stays;
-  for (int k = 0; k < table.size(); ++k) nearest = std::min(nearest, table.range(k));
-  const bool thin = nearest > follow_tree;
-  if (thin && robot.self.assumed_silence > 0 && robot.self.since_start < unheard_rounds) return {};
-  if (const Token* place = charging_place(robot); place != nullptr) {
-    constexpr float at_place = 0.2F;  // C
-    return norm(place->place) > at_place ? towards(robot, place->place) : Vec2{};
-  }
-  if (robot.self.call.source != nobody && !robot.self.leaving) {
-    const int k = least_of(table.size(), not_counted, [&](int j) {
-      const Call& c = robot.said(j).call;
-      const bool leads = table.age(j) <= 1 && c.source == robot.self.call.source && c.hops < robot.self.call.hops;
-      return leads ? static_cast<float>(c.hops) + 0.5F * table.range(j) : not_counted;
-    });
-    if (k >= 0) return towards(robot, place_for(robot, k));
-  }
-  if (robot.parent < 0) return {};
-  const float reach = thin ? stays : robot.is_tree(robot.parent) ? follow_tree : follow_spare;
-  return towards(robot, robot.position(robot.parent)) * ramp(robot.range(robot.parent), reach, p.pull_width);
-}
-
 // Room for others: spares and robots of the tree that are near, and the lines of sight of their edges.
 Vec2 make_room(const Robot& robot, float width) noexcept {
   constexpr float most = 20.0F;  // on a line; not without limit
@@ -143,41 +105,130 @@ Vec2 make_room(const Robot& robot, float width) noexcept {
   return u;
 }
 
+// ---- The goals ----
+
+bool has_lost_parent(const Robot& robot) noexcept { return robot.parent >= 0 && robot.is_lost(robot.parent); }
+bool is_worker(const Robot& robot) noexcept { return robot.self.role == Role::worker; }
+bool is_towed(const Robot& robot) noexcept { return robot.self.role != Role::spare && robot.self.want > 0; }
+bool has_arrived(const Robot& robot) noexcept { return robot.self.role != Role::spare; }
+
+// Where all are far apart and packets get lost, somebody whom it has not heard yet may depend on it.
+bool is_thin(const Robot& robot) noexcept {
+  const Table& table = robot.table();
+  for (int k = 0; k < table.size(); ++k)
+    if (table.range(k) <= follow_tree) return false;
+  return true;
+}
+bool awaits_the_unheard(const Robot& robot) noexcept {
+  constexpr int rounds = 100;
+  return robot.self.assumed_silence > 0 && robot.self.since_start < rounds && is_thin(robot);
+}
+
+bool is_to_be_charged(const Robot& robot) noexcept { return charging_place(robot) != nullptr; }
+
+// The neighbour through which the post is nearest, -1: there is none.
+int caller(const Robot& robot) noexcept {
+  const Table& table = robot.table();
+  const State& self = robot.self;
+  if (self.call.source == nobody || self.leaving) return -1;
+  return least_of(table.size(), not_counted, [&](int j) {
+    const Call& c = robot.said(j).call;
+    const bool leads = table.age(j) <= 1 && c.source == self.call.source && c.hops < self.call.hops;
+    return leads ? static_cast<float>(c.hops) + 0.5F * table.range(j) : not_counted;
+  });
+}
+bool is_called(const Robot& robot) noexcept { return caller(robot) >= 0; }
+
+bool always(const Robot& /*robot*/) noexcept { return true; }
+
+Vec2 stay(Robot& /*robot*/) noexcept { return {}; }
+
+Vec2 to_root(Robot& robot) noexcept {
+  constexpr float near = 0.2F;  // C
+  const Vec2 place = robot.self.tokens[0].place;
+  return norm(place) > near ? towards(robot, place) : Vec2{};
+}
+
+Vec2 to_parent(Robot& robot) noexcept { return towards(robot, robot.position(robot.parent)); }
+
+// At its target it gives way a little, if that lets another one reach its own.
+Vec2 to_target(Robot& robot) noexcept {
+  constexpr float fading = 0.1F;
+  const Vec2* const target = robot.self.target();
+  if (target == nullptr) return {};
+  const float within = robot.params.arrival_distance * 0.95F - norm(*target);
+  return (robot.parent >= 0 ? towards(robot, *target) : Vec2{}) +
+         clamped(slack(robot), std::clamp(within / slowing / fading, 0.0F, 1.0F));
+}
+
+// Round obstacles, if there are any; and under tension.
+Vec2 drawn(Robot& robot, Vec2 pull) noexcept {
+  if (!robot.obstacles.empty() && !(pull == Vec2{})) pull = towards(robot, pull) * norm(pull);
+  return pull + tension(robot) + slack(robot);
+}
+Vec2 after_children(Robot& robot) noexcept { return drawn(robot, tow(robot)); }
+Vec2 gather_slack(Robot& robot) noexcept { return drawn(robot, compaction(robot)); }
+
+Vec2 to_charging_place(Robot& robot) noexcept {
+  constexpr float at_place = 0.2F;  // C
+  const Vec2 place = charging_place(robot)->place;
+  return norm(place) > at_place ? towards(robot, place) : Vec2{};
+}
+
+// Beside one that runs low; into the edge, if it hears both ends; past the one that passed the call on, in the
+// direction in which its branch leads; else to that one.
+Vec2 to_post(Robot& robot) noexcept {
+  constexpr float past = 0.5F;  // C
+  const int k = caller(robot);
+  const Vec2 at = robot.position(k);
+  const Standing& m = robot.said(k);
+  const int up = robot.is_tree(k) ? robot.table().find(m.parent) : -1;
+  Vec2 place = at;
+  if (m.call.hops == 0 && m.leaving) place = at - unit(at) * (2.0F * robot.params.room);
+  else if (up >= 0 && m.call.hops == 0) place = at + (robot.position(up) - at) * 0.5F;
+  else if (up >= 0) place = at - unit(robot.position(up) - at) * past;
+  return towards(robot, place);
+}
+
+Vec2 near_parent(Robot& robot) noexcept {
+  constexpr float stays = 0.9F;  // C
+  if (robot.parent < 0) return {};
+  const float reach = is_thin(robot) ? stays : robot.is_tree(robot.parent) ? follow_tree : follow_spare;
+  return to_parent(robot) * ramp(robot.range(robot.parent), reach, robot.params.pull_width);
+}
+
+// How far a robot keeps from the lines of sight of others: not at all, out of the way, or well away.
+enum class Room : unsigned char { none, passing, wide };
+
+struct Goal {
+  const char* name;
+  bool (*applies)(const Robot&) noexcept;
+  Vec2 (*motion)(Robot&) noexcept;
+  Room room;
+};
+
+// The first that applies.
+constexpr Goal goals[] = {
+    {"the root is silent: all meet where it was", is_cut_off, to_root, Room::none},
+    {"the parent is silent: to where it was", has_lost_parent, to_parent, Room::passing},
+    {"a worker: to its target", is_worker, to_target, Room::none},
+    {"towed: after the children that have to go on", is_towed, after_children, Room::wide},
+    {"arrived: gather the slack of the chain", has_arrived, gather_slack, Room::wide},
+    {"a thin start: stay, somebody unheard may depend on me", awaits_the_unheard, stay, Room::wide},
+    {"low on charge: to be charged", is_to_be_charged, to_charging_place, Room::wide},
+    {"called: to the nearest post", is_called, to_post, Room::wide},
+    {"a spare: stay near the parent", always, near_parent, Room::wide},
+};
+
 }  // namespace
 
 Vec2 goal(Robot& robot) noexcept {
-  const State& self = robot.self;
   const Params& p = robot.params;
-  const float wide = 2.0F * p.clearance;  // robots under way pass lines of sight so far off
-  // The root is silent: all meet where it was.
-  constexpr float near = 0.2F;  // C
-  const Token& root = self.tokens[0];
-  if (is_cut_off(robot))
-    return (norm(root.place) > near ? towards(robot, root.place) : Vec2{}) + make_room(robot, 0.0F);
-  // Its upper end is lost: it goes where that was.
-  if (robot.parent >= 0 && robot.is_lost(robot.parent))
-    return towards(robot, robot.position(robot.parent)) + make_room(robot, wide);
-  switch (self.role) {
-    case Role::worker: {
-      const Vec2* target = self.target();
-      const Vec2 way = target != nullptr && robot.parent >= 0 ? towards(robot, *target) : Vec2{};
-      // At its target it gives way a little, if that lets another one reach its own.
-      constexpr float fading = 0.1F;
-      const float give = target == nullptr
-                             ? 0.0F
-                             : std::clamp((p.arrival_distance * 0.95F - norm(*target)) / slowing / fading, 0.0F, 1.0F);
-      return way + clamped(slack(robot), give) + make_room(robot, 0.0F);
-    }
-    case Role::spare: {
-      const Vec2 way = wait(robot);
-      return way + make_room(robot, norm(way) > 0.0F ? wide : p.sight_width);
-    }
-    default: {
-      const Vec2 pull = self.want > 0 ? tow(robot) : compaction(robot);
-      const Vec2 along = robot.obstacles.empty() || pull == Vec2{} ? pull : towards(robot, pull) * norm(pull);
-      return along + tension(robot) + slack(robot) + make_room(robot, p.sight_width);
-    }
-  }
+  const Goal& first = *first_of(std::begin(goals), std::end(goals), [&](const Goal& g) { return g.applies(robot); });
+  const Vec2 way = first.motion(robot);
+  // A spare under way passes nearer than one that stands.
+  const bool passes = first.room == Room::passing || (robot.self.role == Role::spare && norm(way) > 0.0F);
+  return way + make_room(robot, first.room == Room::none ? 0.0F : passes ? 2.0F * p.clearance : p.sight_width);
 }
 
 void limit_motion(const Robot& robot, Guard& guard) noexcept {

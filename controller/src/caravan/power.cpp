@@ -38,11 +38,15 @@ void watch_charge(Robot& robot, const Inputs<Heard>& inputs) noexcept {
   self.seeks_charge = false;
   const float least = p.relieve_below + (place == nullptr ? 0.0F : std::min(per_c * norm(place->place), most_way));
   const unsigned turn = self.id * 37U % turns;  // so that ids next to each other are far apart
-  const float below = self.was_charged ? least : std::min(least + sooner * static_cast<float>(turn) / turns, std::max(least, p.ready_above - 0.05F));
+  const float below = self.was_charged ? least
+                                       : std::min(least + sooner * static_cast<float>(turn) / turns,
+                                                  std::max(least, p.ready_above - 0.05F));
   self.leaving = !keeps_place && self.level < (self.leaving ? full : below);
 }
 
-const Token* charging_place(const Robot& robot) noexcept { return robot.self.seeks_charge ? nearest_place(robot.self) : nullptr; }
+const Token* charging_place(const Robot& robot) noexcept {
+  return robot.self.seeks_charge ? nearest_place(robot.self) : nullptr;
+}
 
 int heir(const Robot& robot) noexcept {
   constexpr float beside = 0.3F;  // C

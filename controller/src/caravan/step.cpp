@@ -136,9 +136,10 @@ void add_to(Digest& digest, const State& s) noexcept {
   FieldDigest visit{digest};
   const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };
   visit_fields(visit, static_cast<const Message&>(s));
-  add(s.level, s.was_charged, s.seeks_charge, s.newest.number, s.newest.id, s.serves, s.was_sent, s.token_count, s.turn, s.urgent_turn, s.news_gap,
-      s.since_start, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds, s.call_silence, s.unserved_rounds,
-      s.expected_packets, s.missed_packets, s.loss_rounds, s.assumed_silence, s.burst, s.round, s.neighbors.size());
+  add(s.level, s.was_charged, s.seeks_charge, s.newest.number, s.newest.id, s.serves, s.was_sent, s.token_count, s.turn,
+      s.urgent_turn, s.news_gap, s.since_start, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds,
+      s.call_silence, s.unserved_rounds, s.expected_packets, s.missed_packets, s.loss_rounds, s.assumed_silence,
+      s.burst, s.round, s.neighbors.size());
   for (int k = 0; k < s.neighbors.size(); ++k) {
     add(s.neighbors.id(k), s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k),
         s.neighbors.passes[static_cast<std::size_t>(k)]);
@@ -146,7 +147,8 @@ void add_to(Digest& digest, const State& s) noexcept {
     static_cast<Standing&>(said) = s.neighbors.standings[static_cast<std::size_t>(k)];
     visit_fields(visit, said);
   }
-  for (const Token& t : s.known()) add(t.name, t.holder, t.beat, t.age, t.place, t.located, t.reached, t.charging, t.urgent);
+  for (const Token& t : s.known())
+    add(t.name, t.holder, t.beat, t.age, t.place, t.located, t.reached, t.charging, t.urgent);
   add(s.detour.side, s.detour.contact, s.detour.origin, s.detour.goal, s.detour.leave, s.detour.span,
       s.detour.last_side, s.detour.again);
   for (std::size_t k = 0; k < s.corner_count; ++k) add(s.corners[k]);

@@ -119,7 +119,8 @@ void hear_token(Robot& robot, const Heard& h) noexcept {
   if (news.holder == self.id) {
     // Handed over to me; or old news, from before I resigned.
     const bool mine = self.role == Role::spare && !robot.is_root() && self.serves == nobody;
-    if (news.name == root_name ? mine && h.message->id == self.newest.id : mine && is_news(news.beat, t->beat, t->age)) {
+    if (news.name == root_name ? mine && h.message->id == self.newest.id
+                               : mine && is_news(news.beat, t->beat, t->age)) {
       if (news.name == root_name) become_root(robot);
       else self.serves = news.name, announce(*t, self.id);
     }

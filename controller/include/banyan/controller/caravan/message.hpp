@@ -34,7 +34,7 @@ struct Call {
 struct Standing {
   Role role = Role::spare;
   bool pinned = false;      // a corner is about to cut the edge to its parent, and somebody below has to go on
-  bool leaving = false;    // it runs low, and has to be relieved; a spare: it has too little charge to join
+  bool leaving = false;     // it runs low, and has to be relieved; a spare: it has too little charge to join
   RobotId parent = nobody;  // the upper end of the link that ties it to the others
   RobotId named = nobody;   // a neighbour that it hears, by ascending ids round and round
   RobotId other = nobody;   // the parent that it had, until that promise has ended

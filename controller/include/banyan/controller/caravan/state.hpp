@@ -25,7 +25,7 @@ struct Token {
   Vec2 place;             // C, own frame
   bool located = false;   // I know the place
   bool reached = false;
-  bool charging = false;  // one is charged there
+  bool charging = false;    // one is charged there
   std::uint8_t urgent = 0;  // for so many rounds it is told out of turn
 };
 inline constexpr std::size_t most_tokens = 33;
@@ -33,7 +33,7 @@ inline constexpr std::size_t most_tokens = 33;
 inline constexpr std::size_t most_corners = 8;
 
 struct State : Message {
-  Root newest;              // that I have heard of; my place in the order may still be that of an older one
+  Root newest;          // that I have heard of; my place in the order may still be that of an older one
   float level = -1.0F;  // of a full battery; below 0: it has none
   bool was_charged = false;
   bool seeks_charge = false;
