@@ -106,21 +106,22 @@ std::string rival_of(const std::string& file) {
 
 // The paper's algorithms share nothing with others but core/ (include_direction_test.cpp): the paper's names are
 // theirs.
-bool is_of_paper(const std::string& file) {
-  return file.starts_with("controller/") && file.find("/paper/") != std::string::npos;
+bool has_names_of_its_own(const std::string& file) {
+  return file.starts_with("controller/") &&
+         (file.find("/paper/") != std::string::npos || file.find("/caravan/") != std::string::npos);
 }
 bool is_of_another_algorithm(const std::string& file) {
   static const std::regex in_core(R"(^controller/(include/banyan/controller|src)/core/.*)");
-  return !is_of_paper(file) && (file.starts_with("rivals/") || file.starts_with("controller/")) &&
+  return !has_names_of_its_own(file) && (file.starts_with("rivals/") || file.starts_with("controller/")) &&
          !std::regex_match(file, in_core);
 }
 
 bool are_one(const Definition& a, const Definition& b) {
   const bool of_two_rivals =
       !rival_of(a.file).empty() && !rival_of(b.file).empty() && rival_of(a.file) != rival_of(b.file);
-  const bool of_paper = (is_of_paper(a.file) && is_of_another_algorithm(b.file)) ||
-                        (is_of_paper(b.file) && is_of_another_algorithm(a.file));
-  return of_two_rivals || of_paper || (!a.alias.empty() && a.alias == b.alias);
+  const bool of_one = (has_names_of_its_own(a.file) && is_of_another_algorithm(b.file)) ||
+                      (has_names_of_its_own(b.file) && is_of_another_algorithm(a.file));
+  return of_two_rivals || of_one || (!a.alias.empty() && a.alias == b.alias);
 }
 
 std::string twice(const std::map<std::string, std::string>& files) {

@@ -13,6 +13,7 @@ constexpr float pinned_width = 0.05F;
 constexpr float tension_width = 0.15F;
 constexpr float slowing = 0.05F;       // the last bit to a place
 constexpr float follow_spare = 0.75F;  // a spare stays so near to its parent
+constexpr float sight_width = 0.35F;   // C: robots that stand keep so far from the edges of others
 constexpr float follow_tree = 0.5F;
 
 float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
@@ -83,10 +84,12 @@ Vec2 slack(const Robot& robot) noexcept {
 // Room for others: spares and robots of the tree that are near, and the lines of sight of their edges.
 Vec2 make_room(const Robot& robot, float width) noexcept {
   constexpr float most = 20.0F;  // on a line; not without limit
+  constexpr float gain = 0.5F;
+  constexpr float of_tree = 1.3F;  // times as much room
   const Params& p = robot.params;
   const Table& table = robot.table();
   Vec2 u;
-  const auto push = [&](Vec2 near, float reach, float gain, Vec2 aside) {
+  const auto push = [&](Vec2 near, float reach, Vec2 aside) {
     const float d = norm(near);
     if (d < reach) u += (d > 1e-4F ? near / -d : aside) * (gain * std::min(reach / std::max(d, 1e-4F) - 1.0F, most));
   };
@@ -95,12 +98,12 @@ Vec2 make_room(const Robot& robot, float width) noexcept {
     const Standing& m = robot.said(k);
     const bool linked = k == robot.parent || m.parent == robot.self.id;
     if (!(linked && robot.is_tree(k) && robot.self.role != Role::spare))
-      push(table.position(k), m.role == Role::spare ? p.room : p.room_tree, p.room_gain, {});
+      push(table.position(k), m.role == Role::spare ? p.room : of_tree * p.room, {});
     if (!p.line_of_sight || !robot.is_tree(k) || k == robot.parent || m.parent == robot.self.id) continue;
     const int up = table.find(m.parent);
     if (up < 0) continue;
     const Vec2 along = unit(table.position(up) - table.position(k));
-    push(nearest_on_segment(table.position(k), table.position(up)), width, p.sight_gain, left_of(along));
+    push(nearest_on_segment(table.position(k), table.position(up)), width, left_of(along));
   }
   return u;
 }
@@ -228,7 +231,7 @@ Vec2 goal(Robot& robot) noexcept {
   const Vec2 way = first.motion(robot);
   // A spare under way passes nearer than one that stands.
   const bool passes = first.room == Room::passing || (robot.self.role == Role::spare && norm(way) > 0.0F);
-  return way + make_room(robot, first.room == Room::none ? 0.0F : passes ? 2.0F * p.clearance : p.sight_width);
+  return way + make_room(robot, first.room == Room::none ? 0.0F : passes ? 2.0F * p.clearance : sight_width);
 }
 
 void limit_motion(const Robot& robot, Guard& guard) noexcept {

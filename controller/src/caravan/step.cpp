@@ -120,7 +120,7 @@ Report report(const State& s) noexcept {
   Report r{.role = s.role,
            .serves = s.serves,
            .root = s.newest.id,
-           .root_sequence = s.newest.number,
+           .root_sequence = s.newest.sequence,
            .phase = Phase::grow_tree,
            .label = from_fixed(s.label),
            .want = from_fixed(s.want),
@@ -136,8 +136,8 @@ void add_to(Digest& digest, const State& s) noexcept {
   FieldDigest visit{digest};
   const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };
   visit_fields(visit, static_cast<const Message&>(s));
-  add(s.level, s.was_charged, s.seeks_charge, s.newest.number, s.newest.id, s.serves, s.was_sent, s.token_count, s.turn,
-      s.urgent_turn, s.news_gap, s.since_start, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds,
+  add(s.level, s.was_charged, s.seeks_charge, s.newest.sequence, s.newest.id, s.serves, s.was_sent, s.token_count,
+      s.turn, s.urgent_turn, s.news_gap, s.since_start, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds,
       s.call_silence, s.unserved_rounds, s.expected_packets, s.missed_packets, s.loss_rounds, s.assumed_silence,
       s.burst, s.round, s.neighbors.size());
   for (int k = 0; k < s.neighbors.size(); ++k) {

@@ -77,7 +77,7 @@ bool has_precedence(RobotId a, bool a_reached, RobotId b, bool b_reached, RobotI
 void become_root(Robot& robot) noexcept {
   State& self = robot.self;
   Token& root = self.tokens[0];
-  self.root = self.newest = {advanced(self.newest.number), self.id};
+  self.root = self.newest = {advanced(self.newest.sequence), self.id};
   root.holder = self.id, root.age = 0, root.place = {}, root.located = true;
   self.parent = nobody;
 }

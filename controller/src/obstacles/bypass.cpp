@@ -17,20 +17,20 @@ constexpr float goal_moved = 0.15F;
 
 // The largest allowed cosine between a direction of motion and that of an obstacle `d` away: only along the
 // obstacle if it is near, towards it if there is room.
-float allowed_cosine(const Surroundings& robot, float d) noexcept {
+float allowed_cosine(const SensedObstacles& robot, float d) noexcept {
   constexpr float steers_off = 0.5F;  // at 30 degrees from an obstacle that it touches
   const float gap = d - robot.body_radius;
   return std::clamp((gap - keep) / (obstacle_near - keep), -steers_off, 1.0F);
 }
 
-bool is_blocked(const Surroundings& robot, Vec2 direction, Vec2 obstacle) noexcept {
+bool is_blocked(const SensedObstacles& robot, Vec2 direction, Vec2 obstacle) noexcept {
   constexpr float rounding = 1e-3F;  // what sweep() finds is free
   const float d = norm(obstacle);
   return d < robot.body_radius + obstacle_near && dot(direction, obstacle) > (allowed_cosine(robot, d) + rounding) * d;
 }
 
 // Index of the first obstacle in the way, -1 if the direction is free.
-int find_blocking(const Surroundings& robot, Vec2 direction) noexcept {
+int find_blocking(const SensedObstacles& robot, Vec2 direction) noexcept {
   for (std::size_t k = 0; k < robot.obstacles.size(); ++k)
     if (is_blocked(robot, direction, robot.obstacles[k])) return static_cast<int>(k);
   return -1;
@@ -42,7 +42,7 @@ struct FreeCourse {
 };
 
 // Along the obstacle at `contact`, and along any other that blocks the way on this side.
-FreeCourse sweep(const Surroundings& robot, Vec2 contact, int side) noexcept {
+FreeCourse sweep(const SensedObstacles& robot, Vec2 contact, int side) noexcept {
   FreeCourse course{{}, contact};
   for (std::size_t round = 0; round <= robot.obstacles.size(); ++round) {
     const Vec2 n = unit(course.contact);
@@ -65,7 +65,7 @@ void end(Detour& detour) noexcept {
 
 // Takes the side that leads less far away from the goal; if both are equal, robots choose differently, so
 // that several of them explore both.
-void begin(const Surroundings& robot, Detour& detour, Vec2 goal, Vec2 contact) noexcept {
+void begin(const SensedObstacles& robot, Detour& detour, Vec2 goal, Vec2 contact) noexcept {
   detour.contact = contact;
   // Back where the last detour began, and no nearer to the goal: continue that one, and end it less easily.
   // Otherwise the robot would alternate for ever between the two ends of a pocket, or of a row of robots.
@@ -90,7 +90,7 @@ void begin(const Surroundings& robot, Detour& detour, Vec2 goal, Vec2 contact) n
 }
 
 // The point of the obstacle that is being followed; the null vector if it is out of sight.
-Vec2 followed(const Surroundings& robot, const Detour& detour) noexcept {
+Vec2 followed(const SensedObstacles& robot, const Detour& detour) noexcept {
   Vec2 best;
   float best_length = same_obstacle;
   for (const Vec2 o : robot.obstacles) {
@@ -114,7 +114,7 @@ void carry_detour(Detour& detour, const Carry& carry) noexcept {
   detour.leave += (detour.again ? allowance_again : allowance) * norm(carry.shift);
 }
 
-Vec2 bypass(const Surroundings& robot, Detour& detour, Vec2 goal) noexcept {
+Vec2 bypass(const SensedObstacles& robot, Detour& detour, Vec2 goal) noexcept {
   const Vec2 straight = unit(goal);
   // It has left the area that it searched, or has another goal.
   if (detour.last_side != 0 && detour.side == 0 &&
@@ -147,7 +147,7 @@ Vec2 bypass(const Surroundings& robot, Detour& detour, Vec2 goal) noexcept {
   return course.direction;
 }
 
-void keep_off(const Surroundings& robot, float rate, Guard& guard) noexcept {
+void keep_off(const SensedObstacles& robot, float rate, Guard& guard) noexcept {
   for (const Vec2 o : robot.obstacles) {
     const float d = norm(o);
     if (d > 0.0F) guard.add_limit(o / d, (d - robot.body_radius - 0.5F * keep) * rate);

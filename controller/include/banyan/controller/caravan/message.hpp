@@ -10,7 +10,7 @@ namespace banyan::caravan {
 
 // Of two roots that robots believe in, the one with the newer number is right.
 struct Root {
-  Serial number = 0;
+  Serial sequence = 0;
   RobotId id = nobody;  // nobody: none is known
 
   friend bool operator==(const Root&, const Root&) = default;
@@ -18,7 +18,7 @@ struct Root {
 using banyan::is_newer;
 constexpr bool is_newer(Root a, Root b) noexcept {
   if (a.id == nobody || b.id == nobody) return a.id != nobody && b.id == nobody;
-  return a.number != b.number ? banyan::is_newer(a.number, b.number) : a.id > b.id;
+  return a.sequence != b.sequence ? banyan::is_newer(a.sequence, b.sequence) : a.id > b.id;
 }
 
 // The nearest open post, as far as a robot has heard (principle 3).
@@ -82,7 +82,7 @@ template <class Visitor, class M> constexpr void visit_all(Visitor& visit, M& m)
   visit.robot("parent", "the upper end of the link that ties it to the others, -1: none", m.parent);
   visit.robot("named", "a neighbour that it hears, by ascending ids round and round, -1: none", m.named);
   visit.robot("other", "the parent that it had, until that promise has ended, -1: none", m.other);
-  visit.number("root_number", "of the root's token, modulo 65536; 0: no root is known", m.root.number);
+  visit.number("root_sequence", "of the root's token, modulo 65536; 0: no root is known", m.root.sequence);
   visit.robot("root", "the robot that holds that token, -1: none is known", m.root.id);
   visit.number("beat", "its place in the order: the root's count of rounds, less one a hop at least", m.beat);
   visit.scaled("label", "length of its way to the root, C", m.label, per_range);

@@ -7,14 +7,14 @@
 
 namespace banyan {
 
-[[nodiscard]] inline Surroundings surroundings(const TreeRobot& robot) noexcept {
+[[nodiscard]] inline SensedObstacles sensed_obstacles(const TreeRobot& robot) noexcept {
   return {robot.obstacles, robot.params.body_radius, robot.self.id};
 }
 [[nodiscard]] inline Vec2 bypass(const TreeRobot& robot, Detour& detour, Vec2 goal) noexcept {
-  return bypass(surroundings(robot), detour, goal);
+  return bypass(sensed_obstacles(robot), detour, goal);
 }
 inline void keep_off(const TreeRobot& robot, Guard& guard) noexcept {
-  keep_off(surroundings(robot), robot.params.guard_rate, guard);
+  keep_off(sensed_obstacles(robot), robot.params.guard_rate, guard);
 }
 
 }  // namespace banyan

@@ -10,7 +10,7 @@
 namespace banyan {
 
 // What a robot senses of obstacles, and how large it is, C.
-struct Surroundings {
+struct SensedObstacles {
   std::span<const Vec2> obstacles;
   float body_radius;
   RobotId id;  // robots with the same choice choose differently
@@ -36,10 +36,10 @@ void carry_detour(Detour& detour, const Carry& carry) noexcept;
 // obstacle in between. The side is chosen once, nearer to the goal, and kept until the way is free and
 // the goal nearer than where the detour began; a side that leads too far is given up for the other,
 // each time twice as far. Remembers it in `detour`. Zero for a zero goal.
-[[nodiscard]] Vec2 bypass(const Surroundings& robot, Detour& detour, Vec2 goal) noexcept;
+[[nodiscard]] Vec2 bypass(const SensedObstacles& robot, Detour& detour, Vec2 goal) noexcept;
 
 // Half-planes that keep the robot off obstacles: it slides along them and never pushes, because odometry is
 // wrong when wheels slip.
-void keep_off(const Surroundings& robot, float rate, Guard& guard) noexcept;
+void keep_off(const SensedObstacles& robot, float rate, Guard& guard) noexcept;
 
 }  // namespace banyan
