@@ -104,8 +104,7 @@ std::string rival_of(const std::string& file) {
   return std::regex_match(file, m, in_rivals) && m[1] != "common" ? m[1].str() : "";
 }
 
-// The paper's algorithms share nothing with others but core/ (include_direction_test.cpp): the paper's names are
-// theirs.
+// The paper's algorithms and caravan share nothing with others but core/: their names are theirs.
 bool has_names_of_its_own(const std::string& file) {
   return file.starts_with("controller/") &&
          (file.find("/paper/") != std::string::npos || file.find("/caravan/") != std::string::npos);
@@ -119,8 +118,12 @@ bool is_of_another_algorithm(const std::string& file) {
 bool are_one(const Definition& a, const Definition& b) {
   const bool of_two_rivals =
       !rival_of(a.file).empty() && !rival_of(b.file).empty() && rival_of(a.file) != rival_of(b.file);
+  const auto room = [](const Definition& d) {
+    return d.file.find("/paper/") != std::string::npos ? 1 : d.file.find("/caravan/") != std::string::npos ? 2 : 0;
+  };
   const bool of_one = (has_names_of_its_own(a.file) && is_of_another_algorithm(b.file)) ||
-                      (has_names_of_its_own(b.file) && is_of_another_algorithm(a.file));
+                      (has_names_of_its_own(b.file) && is_of_another_algorithm(a.file)) ||
+                      (has_names_of_its_own(a.file) && has_names_of_its_own(b.file) && room(a) != room(b));
   return of_two_rivals || of_one || (!a.alias.empty() && a.alias == b.alias);
 }
 

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 
+#include "banyan/controller/caravan/caravan.hpp"
 #include "banyan/controller/convoy/convoy.hpp"
 #include "banyan/controller/core/digest.hpp"
 #include "banyan/controller/core/trig.hpp"
@@ -35,6 +36,15 @@ template <class Message> void speak_as(std::size_t k, int tick, Message& message
   message.parent = static_cast<RobotId>(k);
 }
 
+inline void speak_as(std::size_t k, int tick, caravan::Message& message) noexcept {
+  message.id = static_cast<RobotId>(k + 1);
+  message.role = static_cast<Role>((tick / 40) % 3);
+  message.root = {1, 1};
+  message.beat = static_cast<Serial>(tick - static_cast<int>(k));
+  message.label = static_cast<std::uint16_t>(128 * k);
+  message.parent = static_cast<RobotId>(k);
+}
+
 inline void add_all(std::span<const std::uint8_t> wire, Digest& digest) noexcept {
   for (const std::uint8_t byte : wire) digest.add(byte);
 }
@@ -45,7 +55,7 @@ inline constexpr bool hashes_state = BANYAN_EXERCISE_HASHES_STATE;
 // A thousand ticks of a robot. In each, two of three neighbours send a message from places on a slowly turning ring,
 // and the robot moves. Returns a hash of all motions, of every byte that travels and of the state at the end.
 template <class Heard, class Message, class State, class Step>
-std::uint64_t exercise(Step step, Drive drive, State& state, Message said) noexcept {
+std::uint64_t exercise(Step step, Drive drive, State& state, Message said, bool worker) noexcept {
   std::array<std::optional<Message>, neighbors> received;
   std::array<Heard, neighbors> heard;
   Platform platform;
@@ -66,7 +76,7 @@ std::uint64_t exercise(Step step, Drive drive, State& state, Message said) noexc
     }
     Senses senses;
     senses.odometry = {0.01F, drive == Drive::holonomic ? 0.005F : 0.0F, 0.02F};
-    senses.orders.sent = state.is_worker;
+    senses.orders.sent = worker;
     senses.orders.target = Vec2{2.0F, 1.0F};
     const Output<Message> output = step(state, Inputs<Heard>(std::span(heard).first(count), senses, platform));
     said = output.message;
@@ -78,8 +88,8 @@ std::uint64_t exercise(Step step, Drive drive, State& state, Message said) noexc
 
 // Room for one robot of any algorithm. A robot's memory is known when it is built.
 struct Memory {
-  alignas(ConvoyState) alignas(
-      paper::State) std::array<std::byte, std::max(sizeof(ConvoyState), sizeof(paper::State))> bytes{};
+  alignas(ConvoyState) alignas(paper::State) alignas(caravan::State)
+      std::array<std::byte, std::max({sizeof(ConvoyState), sizeof(paper::State), sizeof(caravan::State)})> bytes{};
 };
 
 // Every algorithm with every drive, as connector and as worker; names and results go to `report`.
@@ -93,7 +103,7 @@ inline void exercise_all(Memory& memory, void (*report)(const char* name, std::u
           return paper::step(growth, reading, params, state, inputs);
         };
         paper::State& state = *new (memory.bytes.data()) paper::State(paper::initial(0, worker, false));
-        report(name, exercise<paper::Heard>(step, drive, state, paper::Message{}));
+        report(name, exercise<paper::Heard>(step, drive, state, paper::Message{}, worker));
       };
       of_paper("outwards, literal", paper::outwards, paper::literal, paper::outwards_column());
       of_paper("outwards", paper::outwards, paper::corrected, paper::outwards_column());
@@ -105,7 +115,14 @@ inline void exercise_all(Memory& memory, void (*report)(const char* name, std::u
         return convoy_step(params, state, inputs);
       };
       ConvoyState& state = *new (memory.bytes.data()) ConvoyState(initial_convoy_state(0, worker, false));
-      report("convoy", exercise<Heard>(step, drive, state, ConvoyMessage{}));
+      report("convoy", exercise<Heard>(step, drive, state, ConvoyMessage{}, worker));
+      caravan::Params of_caravan;
+      of_caravan.drive = drive;
+      const auto round = [&](caravan::State& robot, const Inputs<caravan::Heard>& inputs) {
+        return caravan::step(of_caravan, robot, inputs);
+      };
+      caravan::State& robot = *new (memory.bytes.data()) caravan::State(caravan::initial(0, worker, false));
+      report("caravan", exercise<caravan::Heard>(round, drive, robot, caravan::Message{}, worker));
     }
   }
 }

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Fails if the controller's objects, or the firmware linked from them, refer to a heap, exceptions,
 # run-time type information, streams, a clock or emulated double arithmetic, or if the firmware has outgrown
-# 74 KB; prints the sizes.
+# 88 KB; prints the sizes.
 set(forbidden
   # heap
   "malloc|calloc|realloc|_malloc_r|_free_r|free|_sbrk|sbrk"
@@ -41,8 +41,8 @@ endforeach()
 execute_process(COMMAND ${SIZE} -t ${ARCHIVE} COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${SIZE} ${FIRMWARE} OUTPUT_VARIABLE sizes COMMAND_ERROR_IS_FATAL ANY)
 message(STATUS "the firmware:\n${sizes}")
-# All algorithms together: convoy, and the paper's two in both readings. A robot carries one of them.
-math(EXPR most "74 * 1024")
+# All algorithms together: convoy, caravan, and the paper's two in both readings. A robot carries one of them.
+math(EXPR most "88 * 1024")
 if(NOT sizes MATCHES "\n *([0-9]+)" OR CMAKE_MATCH_1 GREATER most)
   message(FATAL_ERROR "the firmware has ${CMAKE_MATCH_1} bytes of code, more than ${most}")
 endif()

@@ -145,7 +145,7 @@ TEST(Scale, BatteriesHaveNone) {
 // Its robots do, know and say the same, to the last bit: behind the gate there is no metre and no second.
 class ScaleOf : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(All, ScaleOf,
-                         testing::Values("outwards", "inwards", "convoy", "link-consensus", "mst", "fiedler",
+                         testing::Values("outwards", "inwards", "convoy", "caravan", "link-consensus", "mst", "fiedler",
                                          "cohesion", "chains", "branches"),
                          [](const auto& tested) {
                            std::string name = tested.param;

@@ -56,7 +56,7 @@ void note_return(Robot& robot, int k, int silence) noexcept {
 }
 
 void note_named(Robot& robot, int k, RobotId before) noexcept {
-  const Standing& m = robot.said(k);
+  const Statement& m = robot.said(k);
   const RobotId me = robot.self.id;
   std::uint8_t& passes = robot.table().passes[static_cast<std::size_t>(k)];
   if (m.named == me || m.parent == me || m.other == me) {
@@ -77,7 +77,7 @@ float strayed(const Robot& robot, int k) noexcept {
 
 bool is_promised(const Robot& robot, int k) noexcept {
   const State& self = robot.self;
-  const Standing& m = robot.said(k);
+  const Statement& m = robot.said(k);
   const RobotId id = robot.table().id(k);
   const bool named = id == self.parent || id == self.other || m.parent == self.id || m.other == self.id;
   const bool unbound =

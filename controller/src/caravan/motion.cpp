@@ -34,7 +34,7 @@ Vec2 tow(const Robot& robot) noexcept {
   const float start = robot.is_root() || towing > 1 ? p.late_start : p.pull_start;
   Vec2 u;
   robot.children.for_each([&](int k) {
-    const Standing& m = robot.said(k);
+    const Statement& m = robot.said(k);
     // A child at a corner needs its parent there before it can go round.
     if (m.want > 0)
       u += unit(robot.position(k)) *
@@ -95,7 +95,7 @@ Vec2 make_room(const Robot& robot, float width) noexcept {
   };
   for (int k = 0; k < table.size(); ++k) {
     if (robot.is_lost(k)) continue;
-    const Standing& m = robot.said(k);
+    const Statement& m = robot.said(k);
     const bool linked = k == robot.parent || m.parent == robot.self.id;
     if (!(linked && robot.is_tree(k) && robot.self.role != Role::spare))
       push(table.position(k), m.role == Role::spare ? p.room : of_tree * p.room, {});
@@ -184,7 +184,7 @@ Vec2 to_post(Robot& robot) noexcept {
   constexpr float past = 0.5F;  // C
   const int k = caller(robot);
   const Vec2 at = robot.position(k);
-  const Standing& m = robot.said(k);
+  const Statement& m = robot.said(k);
   const int up = robot.is_tree(k) ? robot.table().find(m.parent) : -1;
   Vec2 place = at;
   if (m.call.hops == 0 && m.leaving) place = at - unit(at) * (2.0F * robot.params.room);

@@ -4,7 +4,7 @@
 
 namespace banyan::caravan {
 
-bool is_ahead(const State& self, const Standing& m) noexcept {
+bool is_ahead(const State& self, const Statement& m) noexcept {
   return m.root == self.root ? m.root.id != nobody && is_newer(m.beat, self.beat) : is_newer(m.root, self.root);
 }
 
@@ -18,7 +18,7 @@ void keep_up(Robot& robot) noexcept {
   }
   const int k = robot.parent;
   if (k < 0 || robot.table().age(k) > 0) return;
-  const Standing& m = robot.said(k);
+  const Statement& m = robot.said(k);
   self.label = static_cast<std::uint16_t>(
       std::min(m.label + std::max(1, static_cast<int>(robot.range(k) * per_range)), UINT16_MAX - 1));
   if (self.rests) return;

@@ -36,7 +36,7 @@ bool reaches_target_from(const Robot& robot, int k) noexcept {
 
 // Without the hazard.
 float cost(const Robot& robot, int k) noexcept {
-  const Standing& m = robot.said(k);
+  const Statement& m = robot.said(k);
   const Params& p = robot.params;
   const float d = robot.range(k);
   const bool is_parent = k == robot.parent;
@@ -49,7 +49,7 @@ float cost(const Robot& robot, int k) noexcept {
   if (m.role == Role::worker && robot.self.want > 0 && !reaches_target_from(robot, k)) c += costs_leaving;
   // The parent serves only me, and could go.
   if (robot.parent >= 0 && (is_parent || m.parent == robot.self.parent)) {
-    const Standing& up = robot.said(robot.parent);
+    const Statement& up = robot.said(robot.parent);
     if (up.role == Role::connector && up.children <= 1) c += p.robot_cost;
   }
   return c;
@@ -58,7 +58,7 @@ float cost(const Robot& robot, int k) noexcept {
 // It is heard, tied to a root, not below me as far as I know, and in reach; without a parent I take what there is.
 bool is_candidate(const Robot& robot, int k) noexcept {
   const float margin = robot.is_wanted() ? 0.05F : 0.02F;  // C: a longer edge would be at its end at once
-  const Standing& m = robot.said(k);
+  const Statement& m = robot.said(k);
   const bool bound = m.root.id != nobody && (m.parent != nobody || m.role == Role::root);
   const bool free = robot.parent < 0 || robot.is_lost(robot.parent);
   return robot.table().age(k) <= 1 && bound && !robot.is_deaf(k) && m.parent != robot.self.id &&

@@ -52,7 +52,7 @@ int heir(const Robot& robot) noexcept {
   constexpr float beside = 0.3F;  // C
   const Table& table = robot.table();
   return least_of(table.size(), beside, [&](int k) {
-    const Standing& m = robot.said(k);
+    const Statement& m = robot.said(k);
     const bool may = table.age(k) == 0 && !m.leaving && m.role == Role::spare && !robot.is_deaf(k);
     return may ? table.range(k) : not_counted;
   });

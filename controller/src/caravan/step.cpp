@@ -13,7 +13,7 @@ void file_heard(Robot& robot, const Inputs<Heard>& inputs) noexcept {
   carry_detour(self.detour, carry);
   self.tally.rejected += inputs.rejected();
   const auto is_up = [&](RobotId id) { return id == self.parent || id == self.other; };
-  const auto matters = [&](RobotId id, const Standing& m) {
+  const auto matters = [&](RobotId id, const Statement& m) {
     return is_up(id) || m.parent == self.id || m.other == self.id;
   };
   table.begin(robot.elapsed_rounds, robot.params.way_in_a_round());
@@ -26,17 +26,17 @@ void file_heard(Robot& robot, const Inputs<Heard>& inputs) noexcept {
     const bool is_new = k < 0;
     if (is_new)
       k = table.enter(m.id, h.position, matters(m.id, m),
-                      [&](int j) { return matters(table.id(j), table.standings[static_cast<std::size_t>(j)]); });
+                      [&](int j) { return matters(table.id(j), table.statements[static_cast<std::size_t>(j)]); });
     if (k < 0) continue;
     if (table.returned() > longest) note_return(robot, k, table.returned());
     const RobotId named_before = h.before == Vec2{} ? nobody : robot.said(k).named;
     if (is_new) table.passes[static_cast<std::size_t>(k)] = 0;
-    table.standings[static_cast<std::size_t>(k)] = m;
+    table.statements[static_cast<std::size_t>(k)] = m;
     note_named(robot, k, named_before);
   }
   const auto keeps = [&](int k) { return table.id(k) == self.parent || is_promised(robot, k); };
   for (int k = 0; (k = table.remove_next(k, carry, robot.liveness(), keeps)) >= 0;)
-    close_gap(table.standings, k, table.size() + 1), close_gap(table.passes, k, table.size() + 1);
+    close_gap(table.statements, k, table.size() + 1), close_gap(table.passes, k, table.size() + 1);
 }
 
 void index_neighbors(Robot& robot) noexcept {
@@ -52,7 +52,7 @@ void index_neighbors(Robot& robot) noexcept {
                       self.other_rounds > robot.hidden_after();
   if (agreed || robot.other < 0 || table.age(robot.other) > robot.lease()) self.other = nobody, robot.other = -1;
   for (int k = 0; k < table.size(); ++k) {
-    const Standing& m = robot.said(k);
+    const Statement& m = robot.said(k);
     if (m.parent == self.id && m.role != Role::spare) robot.children.set(k, true), ++robot.child_count;
   }
 }
@@ -144,7 +144,7 @@ void add_to(Digest& digest, const State& s) noexcept {
     add(s.neighbors.id(k), s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k),
         s.neighbors.passes[static_cast<std::size_t>(k)]);
     Message said;
-    static_cast<Standing&>(said) = s.neighbors.standings[static_cast<std::size_t>(k)];
+    static_cast<Statement&>(said) = s.neighbors.statements[static_cast<std::size_t>(k)];
     visit_fields(visit, said);
   }
   for (const Token& t : s.known())

@@ -30,7 +30,7 @@ void note_named(Robot& robot, int k, RobotId before) noexcept;
 
 // Neighbour k is ahead of me: (root, beat) is newer. No robot takes a parent that is not ahead of it, and no pair ever
 // falls back; so no chain of parents can close (RFC 8966, 2.4).
-[[nodiscard]] bool is_ahead(const State& self, const Standing& m) noexcept;
+[[nodiscard]] bool is_ahead(const State& self, const Statement& m) noexcept;
 void keep_up(Robot& robot) noexcept;
 
 // ---- sight.cpp: what hides an edge ----

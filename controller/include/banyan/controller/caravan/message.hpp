@@ -31,7 +31,7 @@ struct Call {
 };
 
 // What neighbours remember of a robot.
-struct Standing {
+struct Statement {
   Role role = Role::spare;
   bool pinned = false;      // a corner is about to cut the edge to its parent, and somebody below has to go on
   bool leaving = false;     // it runs low, and has to be relieved; a spare: it has too little charge to join
@@ -46,7 +46,7 @@ struct Standing {
   std::uint8_t children = 0;  // of the tree
   Call call;
 
-  friend bool operator==(const Standing&, const Standing&) = default;
+  friend bool operator==(const Statement&, const Statement&) = default;
 };
 
 // The name of the root's token; a target's is the robot first sent there.
@@ -66,7 +66,7 @@ struct TokenNews {
   friend bool operator==(const TokenNews&, const TokenNews&) = default;
 };
 
-struct Message : Standing {
+struct Message : Statement {
   static constexpr std::uint8_t blocks = 0;
   RobotId id = nobody;
   TokenNews token;

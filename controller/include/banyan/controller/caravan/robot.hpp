@@ -12,7 +12,7 @@ namespace banyan::caravan {
 struct Heard {
   const Message* message;
   Vec2 position;
-  float age_s;
+  float age_s = 0.0F;
   Vec2 before{};  // where it was a round ago, in my frame of then; zero: it was not heard then
 };
 
@@ -30,8 +30,8 @@ struct Robot {
 
   [[nodiscard]] Table& table() noexcept { return self.neighbors; }
   [[nodiscard]] const Table& table() const noexcept { return self.neighbors; }
-  [[nodiscard]] const Standing& said(int k) const noexcept {
-    return self.neighbors.standings[static_cast<std::size_t>(k)];
+  [[nodiscard]] const Statement& said(int k) const noexcept {
+    return self.neighbors.statements[static_cast<std::size_t>(k)];
   }
   [[nodiscard]] Vec2 position(int k) const noexcept { return self.neighbors.position(k); }
   [[nodiscard]] float range(int k) const noexcept { return self.neighbors.range(k); }

@@ -11,7 +11,7 @@
 namespace banyan::caravan {
 
 struct Table : Neighbors {
-  std::array<Standing, neighbor_capacity> standings{};
+  std::array<Statement, neighbor_capacity> statements{};
   std::array<std::uint8_t, neighbor_capacity>
       passes{};  // how often in a row it has passed me over as one that it hears
 };
@@ -76,7 +76,7 @@ struct State : Message {
 
   void prefetch(std::size_t entries) const noexcept {
     neighbors.prefetch(entries);
-    prefetch_lines(neighbors.standings.data(), std::min<std::size_t>(entries, neighbor_capacity) * sizeof(Standing));
+    prefetch_lines(neighbors.statements.data(), std::min<std::size_t>(entries, neighbor_capacity) * sizeof(Statement));
   }
 };
 
