@@ -66,10 +66,10 @@ TEST(Algorithms, EveryParameterIsCheckedAgainstItsRange) {
 
 TEST(Algorithms, ValuesOfTheSetupCountAndUnknownKeysDoNot) {
   banyan::Setup setup;
-  setup.parameters = {{"target_gain", 0.25}, {"nonsense", 7.0}};
+  setup.parameters = {{"speed_gain", 0.25}, {"nonsense", 7.0}};
   setup.arrival_distance_m = 0.3;
   for (const Algorithm* algorithm : algorithms()) {
-    EXPECT_EQ(value_of(*algorithm, setup, "target_gain"), 0.25F);
+    EXPECT_EQ(value_of(*algorithm, setup, "speed_gain"), 0.25F);
     EXPECT_EQ(value_of(*algorithm, setup, "arrival_distance"), 0.15F) << "C is 2 m";
     EXPECT_EQ(algorithm->fault(setup), "");
   }
