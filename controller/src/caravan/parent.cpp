@@ -5,9 +5,8 @@
 namespace banyan::caravan {
 namespace {
 
-constexpr float steep = 3.0F;  // what the longest edge costs beyond its length, C
-constexpr float loose = 0.5F;  // a link of a spare, C
-constexpr float soon = 0.075F;
+constexpr float steep = 3.0F;          // what the longest edge costs beyond its length, C
+constexpr float soon = 0.075F;         // before an edge is worth a spare it begins to cost more, C
 constexpr float pinned_edge = 0.3F;    // at a corner edges are to be short
 constexpr float relaxed = 0.93F;       // an edge that need not grow any more is good up to here
 constexpr float costs_leaving = 4.0F;  // it goes its own way and cannot be towed, or runs low
@@ -17,10 +16,7 @@ constexpr int most_rest = 15;          // rounds
 // Up to where an edge may grow it costs its length; then the more, the sooner it will hold somebody back.
 float stretch(const Robot& robot, float d) noexcept {
   const Params& p = robot.params;
-  const float start = robot.self.role == Role::spare ? loose
-                      : robot.self.pinned            ? pinned_edge
-                      : robot.is_wanted()            ? p.need_distance - soon
-                                                     : relaxed;
+  const float start = robot.self.pinned ? pinned_edge : robot.is_wanted() ? p.need_distance - soon : relaxed;
   return steep * std::max(0.0F, (d - start) / (p.longest_edge - start));
 }
 
@@ -86,8 +82,6 @@ void choose_parent(Robot& robot) noexcept {
     robot.parent = -1;
     return;
   }
-  // One change at a time, unless the parent is lost.
-  if (robot.parent >= 0 && robot.other >= 0 && !robot.is_lost(robot.parent)) return;
   const float present = robot.parent < 0
                             ? not_counted
                             : cost(robot, robot.parent) + hazard(robot, robot.parent) - robot.params.hysteresis;
