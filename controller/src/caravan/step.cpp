@@ -31,7 +31,7 @@ void file_heard(Robot& robot, const Inputs<Heard>& inputs) noexcept {
     if (table.returned() > longest) note_return(robot, k, table.returned());
     const RobotId named_before = h.before == Vec2{} ? nobody : robot.said(k).named;
     if (is_new) table.passes[static_cast<std::size_t>(k)] = 0;
-    table.statements[static_cast<std::size_t>(k)] = m;
+    table.statements[static_cast<std::size_t>(k)] = static_cast<const Statement&>(m);
     note_named(robot, k, named_before);
   }
   const auto keeps = [&](int k) { return table.id(k) == self.parent || is_promised(robot, k); };
@@ -111,7 +111,7 @@ Output<Message> step(const Params& params, State& state, const Inputs<Heard>& in
   Guard guard;
   limit_motion(robot, guard);
   const Vec2 v = clamped(guard.apply(wish * params.speed_gain), 1.0F);
-  Output<Message> output{state, drive(v, guard, params)};
+  Output<Message> output{static_cast<const Message&>(state), drive(v, guard, params)};
   output.message.token = told_in_turn(robot);
   return output;
 }

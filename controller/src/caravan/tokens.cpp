@@ -82,6 +82,53 @@ void become_root(Robot& robot) noexcept {
   self.parent = nobody;
 }
 
+void take_news(Token& t, const TokenNews& news) noexcept {
+  t.holder = news.holder, t.beat = news.beat, t.reached = news.reached, t.age = 0;
+}
+
+// I am told where it is. The robot first sent there is told by the mission; while it lives, news of its own place is
+// best, and of several copies the newest. All others only remember, and what they remember is averaged. Once the root
+// is silent, copies of copies would only drift.
+void locate(const Robot& robot, Token& t, const TokenNews& news, Vec2 place) noexcept {
+  constexpr int stale = 3;  // rounds
+  const State& self = robot.self;
+  if (t.name == root_name) {
+    if (news.holder != self.newest.id || (t.located && t.age > robot.liveness())) return;
+    t.place = place;
+  } else {
+    if (self.was_sent && t.name == self.id) return;
+    const bool by_memory = t.holder != t.name || t.age > 2 * robot.liveness() + self.token_count;
+    if (!t.located || (!by_memory && ahead_by(news.beat, t.beat) >= -stale)) t.place = place;
+    else if (by_memory) t.place += (place - t.place) * trust;
+  }
+  t.located = true;
+}
+
+// Another robot is said to hold my target. A count far behind mine is that of a dead one.
+void settle_rivalry(Robot& robot, Token& t, const TokenNews& news) noexcept {
+  State& self = robot.self;
+  if (news.holder == self.id || news.holder == nobody || ahead_by(news.beat, t.beat) < -rival_beats) return;
+  if (has_precedence(news.holder, news.reached, self.id, t.reached, news.name)) {
+    self.serves = nobody;
+    take_news(t, news);
+    t.urgent = urgent_rounds;
+  } else {
+    t.beat = advanced(news.beat, takeover_beats);  // so that it hears of me
+  }
+}
+
+// I am said to hold it: it is handed over to me, or that is old news, from before I resigned.
+void accept(Robot& robot, Token& t, const Message& m) noexcept {
+  State& self = robot.self;
+  if (self.role != Role::spare || robot.is_root() || self.serves != nobody) return;
+  if (t.name == root_name) {
+    if (m.id == self.newest.id) become_root(robot);
+  } else if (is_news(m.token.beat, t.beat, t.age)) {
+    self.serves = t.name;
+    announce(t, self.id);
+  }
+}
+
 void hear_token(Robot& robot, const Heard& h) noexcept {
   State& self = robot.self;
   const TokenNews& news = h.message->token;
@@ -96,51 +143,19 @@ void hear_token(Robot& robot, const Heard& h) noexcept {
     t->beat = advanced(news.beat, -1);
     t->holder = news.holder;
   }
-  // The robot first sent there is told by the mission; while it lives, news of its own place is best, and of several
-  // copies the newest. All others only remember, and what they remember is averaged.
-  constexpr int stale = 3;  // rounds
-  const bool by_memory = t->holder != t->name || t->age > 2 * robot.liveness() + self.token_count;
-  if (told && news.name != root_name && !(self.was_sent && news.name == self.id)) {
-    if (!t->located || (!by_memory && ahead_by(news.beat, t->beat) >= -stale)) t->place = place;
-    else if (by_memory) t->place += (place - t->place) * trust;
-    t->located = true;
-  }
+  if (told) locate(robot, *t, news, place);
   t->charging |= news.charging;
-  if (news.name == self.serves) {
-    if (news.holder == self.id || news.holder == nobody || ahead_by(news.beat, t->beat) < -rival_beats) return;
-    if (has_precedence(news.holder, news.reached, self.id, t->reached, news.name)) {
-      self.serves = nobody;
-      t->holder = news.holder, t->beat = news.beat, t->reached = news.reached, t->age = 0, t->urgent = urgent_rounds;
-    } else {
-      t->beat = advanced(news.beat, takeover_beats);  // so that it hears of me
-    }
-    return;
-  }
-  if (news.holder == self.id) {
-    // Handed over to me; or old news, from before I resigned.
-    const bool mine = self.role == Role::spare && !robot.is_root() && self.serves == nobody;
-    if (news.name == root_name ? mine && h.message->id == self.newest.id
-                               : mine && is_news(news.beat, t->beat, t->age)) {
-      if (news.name == root_name) become_root(robot);
-      else self.serves = news.name, announce(*t, self.id);
-    }
-    return;
-  }
+  if (news.name == self.serves) return settle_rivalry(robot, *t, news);
+  if (news.holder == self.id) return accept(robot, *t, *h.message);
   // The beats of the root's token are those of the order, which are heard from everybody.
-  if (news.name != root_name && is_news(news.beat, t->beat, t->age)) {
-    if (news.holder == t->holder) {
-      const int gap = self.news_gap - self.news_gap / gap_memory;
-      self.news_gap = static_cast<std::uint16_t>(std::clamp<int>(t->age * per_round, gap, UINT16_MAX));
-    } else {
-      t->urgent = urgent_rounds;
-    }
-    t->holder = news.holder, t->beat = news.beat, t->reached = news.reached, t->age = 0;
+  if (news.name == root_name || !is_news(news.beat, t->beat, t->age)) return;
+  if (news.holder == t->holder) {
+    const int gap = self.news_gap - self.news_gap / gap_memory;
+    self.news_gap = static_cast<std::uint16_t>(std::clamp<int>(t->age * per_round, gap, UINT16_MAX));
+  } else {
+    t->urgent = urgent_rounds;
   }
-  // Once the root is silent, copies of copies would only drift.
-  if (told && news.name == root_name && news.holder == self.newest.id && (!t->located || t->age <= robot.liveness())) {
-    t->place = place;
-    t->located = true;
-  }
+  take_news(*t, news);
 }
 
 void follow_root(Robot& robot) noexcept {
