@@ -85,11 +85,12 @@ void update_role(Robot& robot) noexcept {
 }  // namespace
 
 State initial(RobotId id, bool worker, bool root) noexcept {
+  constexpr Serial first_root = 2;  // newer than any that is chosen where it has not been heard of
   State self;
   self.id = id;
   self.was_sent = worker;
   if (worker) self.serves = id;
-  if (root) self.root = self.newest = {1, id};
+  if (root) self.root = self.newest = {first_root, id};
   return self;
 }
 

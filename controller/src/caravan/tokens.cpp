@@ -164,7 +164,7 @@ void follow_root(Robot& robot) noexcept {
   root.name = root_name;
   for (const Heard& h : robot.heard) {
     const Message& m = *h.message;
-    if (m.id == self.id || m.root.id == nobody) continue;
+    if (m.id == self.id || m.root.id == nobody || robot.is_deaf(robot.table().find(m.id))) continue;
     if (is_newer(m.root, self.newest)) self.newest = m.root;
     if (m.root != self.newest) continue;
     if (root.holder != m.root.id || is_news(m.beat, root.beat, root.age))

@@ -58,7 +58,7 @@ struct Robot {
   // I hear it, but it does not hear me.
   [[nodiscard]] bool is_deaf(int k) const noexcept {
     constexpr int often = 2;
-    return self.neighbors.passes[static_cast<std::size_t>(k)] >= often;
+    return k >= 0 && self.neighbors.passes[static_cast<std::size_t>(k)] >= often;
   }
   // And nothing else joins its part of the network to mine.
   [[nodiscard]] bool is_gap(int k) const noexcept { return is_deaf(k) && !is_lost(k) && said(k).root != self.newest; }
