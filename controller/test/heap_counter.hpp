@@ -4,14 +4,13 @@
 // source of a test program only.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
 
-namespace banyan::test {
+#include "allocations.hpp"
 
-inline std::atomic<long> allocations{0};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+namespace banyan::test {
 
 inline void* counted(std::size_t size, std::size_t alignment) noexcept {
   ++allocations;
