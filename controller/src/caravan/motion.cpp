@@ -105,6 +105,11 @@ Vec2 make_room(const Robot& robot, float width) noexcept {
     const Vec2 along = unit(table.position(up) - table.position(k));
     push(nearest_on_segment(table.position(k), table.position(up)), width, left_of(along));
   }
+  // And at a place where others are charged.
+  constexpr float of_place = 0.4F;  // C
+  if (robot.self.role == Role::spare && robot.self.level >= 0.0F && !robot.self.seeks_charge)
+    for (const Token& t : robot.self.known())
+      if (t.charging && t.located) push(t.place, of_place, {});
   return u;
 }
 
@@ -186,10 +191,12 @@ Vec2 to_post(Robot& robot) noexcept {
   const Vec2 at = robot.position(k);
   const Statement& m = robot.said(k);
   const int up = robot.is_tree(k) ? robot.table().find(m.parent) : -1;
+  const bool calls = m.call.source == robot.table().id(k);
   Vec2 place = at;
-  if (m.call.hops == 0 && m.leaving) place = at - unit(at) * (2.0F * robot.params.room);
-  else if (up >= 0 && m.call.hops == 0) place = at + (robot.position(up) - at) * 0.5F;
+  if (calls && m.leaving) place = at - unit(at) * (2.0F * robot.params.room);
+  else if (up >= 0 && calls) place = at + (robot.position(up) - at) * 0.5F;
   else if (up >= 0) place = at - unit(robot.position(up) - at) * past;
+  else if (m.role == Role::root) place = at + unit(at) * past + left_of(unit(at)) * (2.0F * robot.params.room);
   return towards(robot, place);
 }
 

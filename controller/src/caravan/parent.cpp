@@ -41,6 +41,8 @@ float cost(const Robot& robot, int k) noexcept {
   if (is_newer(robot.self.newest, m.root)) c += costs_silence;  // it has not heard of the new root
   c += from_fixed(m.label);
   if (m.role == Role::spare) c += p.robot_cost * static_cast<float>(m.hops);
+  // It is about to go, and would stay for me.
+  if (m.role == Role::connector && m.children <= (robot.table().id(k) == robot.self.left ? 1 : 0)) c += p.robot_cost;
   if (m.leaving) c += costs_leaving;
   if (m.role == Role::worker && robot.self.want > 0 && !reaches_target_from(robot, k)) c += costs_leaving;
   // The parent serves only me, and could go.
@@ -69,6 +71,7 @@ void take_parent(Robot& robot, int k) noexcept {
   robot.other = robot.parent >= 0 && robot.said(robot.parent).root != robot.said(k).root ? robot.parent : -1;
   self.other = robot.other < 0 ? nobody : self.parent;
   self.other_rounds = 0;
+  self.left = self.parent;
   robot.parent = k;
   self.parent = robot.table().id(k);
   self.rests = false;

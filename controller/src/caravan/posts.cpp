@@ -21,13 +21,20 @@ bool has_post(Robot& robot) noexcept {
   return self.unserved_rounds > whole(robot.params.call_after_rounds);
 }
 
+// A robot that runs low can wait, the less the less charge is left: as if it were so many hops farther away.
+std::uint8_t urgency(const State& self) noexcept {
+  constexpr float at_once = 0.1F;  // of a full battery
+  constexpr float hops = 20.0F;    // for a full one
+  return self.leaving ? static_cast<std::uint8_t>(hops * std::max(0.0F, self.level - at_once)) : std::uint8_t{0};
+}
+
 }  // namespace
 
 void call_spares(Robot& robot) noexcept {
   State& self = robot.self;
   const Table& table = robot.table();
   if (has_post(robot)) {
-    self.call = {self.id, static_cast<std::uint8_t>(self.call.source == self.id ? self.call.count + 1 : 0), 0};
+    self.call = {self.id, ++self.post_count, urgency(self)};
     self.call_silence = 0;
     return;
   }
@@ -37,6 +44,8 @@ void call_spares(Robot& robot) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     const Call& c = robot.said(k).call;
     if (table.age(k) > 0 || c.source == nobody || c.source == self.id || c.hops >= most_hops) continue;
+    // What has ended does not begin again by an echo.
+    if (c.source == self.ended.source && static_cast<std::int8_t>(c.count - self.ended.count) <= 0) continue;
     const auto newer = static_cast<std::int8_t>(c.count - self.call.count);
     const bool same = c.source == self.call.source;
     const bool nearer = c.hops + 1 < self.call.hops;
@@ -44,7 +53,10 @@ void call_spares(Robot& robot) noexcept {
     if (!same || newer > 0) self.call_silence = 0;
     self.call = {c.source, c.count, static_cast<std::uint8_t>(c.hops + 1)};
   }
-  if (self.call_silence > 2 * robot.liveness()) self.call = {};
+  if (self.call.source != nobody && self.call_silence > 2 * robot.liveness()) {
+    self.ended = self.call;
+    self.call = {};
+  }
 }
 
 }  // namespace banyan::caravan

@@ -37,7 +37,6 @@ TEST(CaravanPosts, WithoutACallItStaysWhereItIs) {
 
 // A root in its way, which has no branch that would show it the side: it stops right behind.
 TEST(CaravanPosts, ASpareComesPastARootThatCannotMove) {
-  GTEST_SKIP() << "it stays 0.06 C behind the root for good, and hears nothing beyond it";
   TinyWorld world({{0, 0}, {0.3F, 0}, {-0.45F, 0.1F}}, {1});
   world.send(1, {1.6F, 0});
   world.hold(0);
@@ -118,7 +117,6 @@ int outlives(std::size_t robots, std::uint64_t seed) {
 }
 
 TEST(CaravanPosts, ACallDiesWithItsSource) {
-  GTEST_SKIP() << "two robots bring each other back to it, two hops farther every 12 rounds: 1,500 rounds";
   EXPECT_TRUE(rc::check([] {
     const auto robots = *rc::gen::inRange<std::size_t>(3, 8);
     // 2 I after the last news has come, which takes a round a hop.

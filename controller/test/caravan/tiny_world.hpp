@@ -22,7 +22,7 @@ inline constexpr float longest_edge = 0.95F;  // C, as by default
 
 inline constexpr Platform on_wheels_to_all_sides = [] {
   Platform p = test_platform;
-  p.drive = Drive::holonomic;
+  p.drive = banyan::Drive::holonomic;
   return p;
 }();
 
