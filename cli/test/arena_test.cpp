@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <string_view>
 #include <vector>
-#include <sstream>
 
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/study/results.hpp"
