@@ -49,7 +49,7 @@ struct State : Message {
   std::uint16_t other_rounds = 0;           // for how long the old promise has stood beside the new one
   std::uint16_t rest_rounds = 0;
   std::uint16_t childless_rounds = 0;
-  RobotId left = nobody;        // the parent that I had before; it may not know yet
+  RobotId left = nobody;           // the parent that I had before; it may not know yet
   Call ended;                      // the call that ended last: no older count of its source counts
   std::uint8_t post_count = 0;     // of my own posts, a round at a time
   std::uint16_t call_silence = 0;  // since the count of the call advanced
