@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: MIT */
+/* Caravan's tokens: the root's, held by robot 0 at first, and a target's, held by the last one. Holders die, or are only
+   not heard of for long, give up, hand their token over; others take it. What a robot hears is any of a robot's last values.
+   When nothing more happens each piece of the living has one root and one holder of the target, as far as there are spares. */
+#include "swarm.pml"
+
+#ifndef DEATHS
+#define DEATHS 1
+#endif
+#ifndef SUSPICIONS
+#define SUSPICIONS 1   /* tokens taken from holders that live */
+#endif
+#ifndef HANDOVERS
+#define HANDOVERS 0
+#endif
+#ifndef GIVE_UPS
+#define GIVE_UPS 0
+#endif
+#ifndef CLAIMS
+#define CLAIMS 2       /* robots that become root */
+#endif
+#ifndef THERE
+#define THERE (-1)     /* the robot that stands at the target */
+#endif
+#ifndef BEATS
+#define BEATS 20       /* rounds of a step */
+#endif
+#define FARTHEST 120   /* a count so far behind is as good as one still farther behind */
+
+/* What a robot may do. */
+#define STEP 1        /* hears nobody */
+#define HEAR 2
+#define HEAR_OFFER 3  /* of a root that runs low */
+#define HAND 4        /* the target, to a spare that it hears */
+#define CLAIM 5       /* the root has been silent for too long */
+#define SUCCEED 6     /* so has the target's holder */
+#define GIVE_UP 7
+#define DIE 8
+
+c_decl {
+\#include "caravan.h"
+\#include "sizes.h"
+\#include "graphs.h"
+\#include "seen.h"
+#define FIRST (ROBOTS - 1)
+#define CALM_ROUNDS 70
+#define HEARD(k, copy) ((copy) == 0 ? &now.robot[k] : &now.older[k][(copy) - 1])
+};
+c_state "struct Holding robot[ROBOTS]" "Global"
+c_state "struct Holding older[ROBOTS][COPIES]" "Global"
+
+byte act, me, from, copy;  /* the next step; 0 between steps */
+short graph, graph_count;
+byte deaths_left = DEATHS, suspicions_left = SUSPICIONS, handovers_left = HANDOVERS, give_ups_left = GIVE_UPS, claims_left = CLAIMS;
+bool two_roots, no_root, disagree, two_holders, no_holder, revived;
+
+c_code {
+  static int hears(int a, int b) { return a != b && (graphs[now.graph] >> edge_bit(a, b) & 1); }
+
+  static int spent(char* budget) {
+    if (*budget == 0) return 1;
+    --*budget;
+    return 0;
+  }
+
+  /* Only the differences of counts matter: the newest is 0, and none is farther behind than FARTHEST. */
+  static void normalise(void) {
+    unsigned short newest = now.robot[0].beat;
+    for (int k = 1; k < ROBOTS; ++k)
+      if (caravan_ahead_by(now.robot[k].beat, newest) > 0) newest = now.robot[k].beat;
+    for (int k = 0; k < ROBOTS; ++k)
+      for (int c = 0; c <= COPIES; ++c) {
+        const int behind = caravan_ahead_by(newest, HEARD(k, c)->beat);
+        HEARD(k, c)->beat = (unsigned short)-(behind > FARTHEST ? FARTHEST : behind);
+      }
+  }
+
+  static void show(const char* what, int k, const struct Holding* r) {
+    Printf("%s %d: root (%d, %d) holder %d count %d%s%s%s\n", what, k, r->sequence, r->root, r->holder, r->beat, r->serving ? " serves" : "",
+           r->reached ? " there" : "", r->dead ? " dead" : "");
+  }
+
+  static void judge(void) {
+    if (seen((unsigned long long)now.graph ^ (unsigned long long)now.give_ups_left << 20, now.robot, sizeof now.robot)) return;
+    struct Holding robot[ROBOTS];
+    memcpy(robot, now.robot, sizeof robot);
+    unsigned dead = 0;
+    int gone = now.give_ups_left < GIVE_UPS;
+    for (int k = 0; k < ROBOTS; ++k) {
+      dead |= robot[k].dead << k;
+      if (robot[k].serving && !robot[k].dead) gone = 0;
+      caravan_place_token(k, &robot[k], FIRST, THERE);
+    }
+    for (int round = 0; round < CALM_ROUNDS; ++round) {
+      caravan_round(ROBOTS, hears, dead);
+#ifdef SHOW_CALM
+      for (int k = 0; k < ROBOTS; ++k) caravan_read_token(k, &robot[k], FIRST), show("  round robot", k, &robot[k]);
+#endif
+    }
+    for (int k = 0; k < ROBOTS; ++k) caravan_read_token(k, &robot[k], FIRST);
+    for (int k = 0; k < ROBOTS; ++k) {
+      if (dead >> k & 1) continue;
+      const unsigned piece = reach(graphs[now.graph], k, ~dead & ((1U << ROBOTS) - 1));
+      int roots = 0, holders = 0, free = 0, given_up = 0;
+      for (int j = 0; j < ROBOTS; ++j) {
+        if (!(piece >> j & 1)) continue;
+        const int is_root = robot[j].root == j;
+        roots += is_root, holders += robot[j].serving, free += !is_root && !robot[j].serving;
+        given_up |= robot[j].holder == no_robot && now.give_ups_left < GIVE_UPS;
+        if (robot[j].root != robot[k].root || robot[j].sequence != robot[k].sequence) now.disagree = 1;
+      }
+      if (roots > 1) now.two_roots = 1;
+      if (roots == 0 && free > 0) now.no_root = 1;
+      if (holders > 1) now.two_holders = 1;
+      if (holders == 0 && free > 0 && !given_up) now.no_holder = 1;
+      /* Nobody held it any more when all was well again, and nobody died or was taken for dead. */
+      if (holders > 0 && gone && now.deaths_left == DEATHS && now.suspicions_left == SUSPICIONS) now.revived = 1;
+    }
+  }
+
+  static void take_step(void) {
+    const int me = now.me, from = now.from;
+    struct Holding r = now.robot[me];
+    const struct Holding* heard = HEARD(from, now.copy);
+    struct Events events = {.beats = BEATS};
+    if (r.dead) return;
+    switch (now.act) {
+      case STEP:
+        if (!r.serving) return;
+        caravan_token_step(me, &r, no_robot, 0, events, FIRST, THERE);
+        break;
+      case HEAR_OFFER:
+        if (heard->root != from || heard->dead || !hears(me, from) || spent(&now.handovers_left)) return;
+        events.offered = 1;
+        caravan_token_step(me, &r, from, heard, events, FIRST, THERE);
+        break;
+      case HEAR:
+        if (!hears(me, from)) return;
+        caravan_token_step(me, &r, from, heard, events, FIRST, THERE);
+        break;
+      case HAND:
+        if (!r.serving || !hears(me, from) || spent(&now.handovers_left)) return;
+        events.leaving = 1;
+        caravan_token_step(me, &r, from, heard, events, FIRST, THERE);
+        break;
+      case CLAIM:
+        if (r.root == me || r.serving || spent(&now.claims_left)) return;
+        if (!now.robot[r.root].dead && spent(&now.suspicions_left)) return;
+        events.root_silent = 1;
+        caravan_token_step(me, &r, no_robot, 0, events, FIRST, THERE);
+        break;
+      case SUCCEED:
+        if (r.serving || r.root == me || r.holder == no_robot) return;
+        if (!now.robot[r.holder].dead && spent(&now.suspicions_left)) return;
+        events.holder_silent = 1;
+        caravan_token_step(me, &r, no_robot, 0, events, FIRST, THERE);
+        break;
+      case GIVE_UP:
+        if (!r.serving || spent(&now.give_ups_left)) return;
+        events.gives_up = 1;
+        caravan_token_step(me, &r, no_robot, 0, events, FIRST, THERE);
+        break;
+      case DIE:
+        if (spent(&now.deaths_left)) return;
+        r.dead = 1;
+        break;
+    }
+    struct Holding* old = &now.robot[me];
+    if (memcmp(&r, old, sizeof r) == 0) return;
+    for (int k = COPIES - 1; k > 0; --k) now.older[me][k] = now.older[me][k - 1];
+    now.older[me][0] = *old;
+    *old = r;
+    normalise();
+    Printf("robot %d: act %d (from %d copy %d)", me, now.act, from, now.copy);
+    show("", me, old);
+    judge();
+  }
+};
+
+active proctype swarm() {
+  atomic {
+    choose_graph(graph);
+    c_code {
+      memset(now.robot, 0, sizeof now.robot);
+      for (int k = 0; k < ROBOTS; ++k) {
+        now.robot[k].sequence = 65535, now.robot[k].root = 0, now.robot[k].holder = FIRST, now.robot[k].serving = k == FIRST;
+        for (int c = 0; c < COPIES; ++c) now.older[k][c] = now.robot[k];
+      }
+    }
+  };
+  do
+  :: atomic {
+    choose(me);
+    if
+    :: choose_other(from); choose_copy(copy);
+       if
+       :: act = HEAR
+       :: act = HEAR_OFFER
+       :: act = HAND
+       fi
+    :: act = STEP
+    :: act = CLAIM
+    :: act = SUCCEED
+    :: act = GIVE_UP
+    :: act = DIE
+    fi;
+    c_code { take_step(); };
+    assert(!two_roots);
+    assert(!no_root);
+    assert(!disagree);
+    assert(!two_holders);
+    assert(!no_holder);
+    assert(!revived);
+    act = 0; me = 0; from = 0; copy = 0
+  }
+  od
+}
