@@ -67,10 +67,16 @@ bool is_candidate(const Robot& robot, int k) noexcept {
 
 void take_parent(Robot& robot, int k) noexcept {
   State& self = robot.self;
-  // The old parent is joined to the root by others, unless it believes in another root: then I join it to mine.
-  robot.other = robot.parent >= 0 && robot.said(robot.parent).root != robot.said(k).root ? robot.parent : -1;
-  self.other = robot.other < 0 ? nobody : self.parent;
-  self.other_rounds = 0;
+  // The old parent is joined to the root by others, unless it believes in another root: then I join it to mine, and a
+  // change that meets no other root leaves that promise as it is.
+  if (robot.parent >= 0 && robot.said(robot.parent).root != robot.said(k).root) {
+    robot.other = robot.parent;
+    self.other = self.parent;
+    self.other_rounds = 0;
+  } else if (robot.other == k) {
+    robot.other = -1;
+    self.other = nobody;
+  }
   self.left = self.parent;
   robot.parent = k;
   self.parent = robot.table().id(k);
