@@ -6,6 +6,7 @@ namespace banyan::caravan {
 namespace {
 
 constexpr std::uint8_t most_hops = 250;
+constexpr int echo_rounds = 64;  // by then echoes have ended, and the count has not come half round
 
 // My edge is worth a spare, and none has been in reach for a while.
 bool has_post(Robot& robot) noexcept {
@@ -40,6 +41,8 @@ void call_spares(Robot& robot) noexcept {
   }
   if (self.call.source == self.id) self.call = {};
   robot.add_elapsed(self.call_silence);
+  robot.add_elapsed(self.ended_rounds);
+  if (self.ended_rounds > echo_rounds) self.ended = {};
   // Of what I hear the nearest source; of one source the newest count.
   for (int k = 0; k < table.size(); ++k) {
     const Call& c = robot.said(k).call;
@@ -55,6 +58,7 @@ void call_spares(Robot& robot) noexcept {
   }
   if (self.call.source != nobody && self.call_silence > 2 * robot.liveness()) {
     self.ended = self.call;
+    self.ended_rounds = 0;
     self.call = {};
   }
 }

@@ -283,7 +283,7 @@ TokenNews told_in_turn(Robot& robot) noexcept {
   const auto after = [&](int at) { return static_cast<std::uint8_t>((at + 1) % self.token_count); };
   std::uint8_t next = after(self.urgent_turn);
   for (int k = 0; k < self.token_count && self.tokens[next].urgent == 0; ++k) next = after(next);
-  if (self.since_start % 2 == 0 || self.tokens[next].urgent == 0) {
+  if (self.round % 2 == 0 || self.tokens[next].urgent == 0) {
     next = self.turn = after(self.turn);
     if (next == 0) self.token.told = table.next_heard(self.token.told, 0);
   } else {

@@ -124,7 +124,20 @@ TEST(CaravanPosts, ACallDiesWithItsSource) {
   }));
 }
 
-// What bounds it now: no robot counts more than 250 hops.
+// The count has meanwhile come more than half round, and is no echo of what had ended.
+TEST(CaravanPosts, ACallIsTakenUpAgainByARobotThatHeardNobodyForLong) {
+  Dice dice(1);
+  TinyWorld world = calling(3, dice);
+  world.steps(100);
+  ASSERT_EQ(world.said(2).call.source, 1);
+  world.jam(2);
+  world.steps(150);
+  ASSERT_EQ(world.said(2).call.source, nobody);
+  world.jam(2, false);
+  EXPECT_LT(world.until(200, [&] { return world.said(2).call.source == 1; }), 5);
+}
+
+// No robot counts more than 250 hops.
 RC_GTEST_PROP(CaravanPosts, NoCallOutlivesItsSourceForEver, ()) {
   RC_ASSERT(outlives(*rc::gen::inRange<std::size_t>(3, 8), any_seed()) <= 250 / 2 * 12);
 }

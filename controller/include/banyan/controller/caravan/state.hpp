@@ -49,8 +49,9 @@ struct State : Message {
   std::uint16_t other_rounds = 0;           // for how long the old promise has stood beside the new one
   std::uint16_t rest_rounds = 0;
   std::uint16_t childless_rounds = 0;
-  RobotId left = nobody;           // the parent that I had before; it may not know yet
-  Call ended;                      // the call that ended last: no older count of its source counts
+  RobotId left = nobody;  // the parent that I had before; it may not know yet
+  Call ended;             // the call that ended last: no older count of its source counts for a while
+  std::uint16_t ended_rounds = 0;
   std::uint8_t post_count = 0;     // of my own posts, a round at a time
   std::uint16_t call_silence = 0;  // since the count of the call advanced
   std::uint16_t unserved_rounds = 0;
