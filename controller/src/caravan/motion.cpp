@@ -99,7 +99,8 @@ Vec2 make_room(const Robot& robot, float width) noexcept {
     const bool linked = k == robot.parent || m.parent == robot.self.id;
     if (!(linked && robot.is_tree(k) && robot.self.role != Role::spare))
       push(table.position(k), m.role == Role::spare ? p.room : of_tree * p.room, {});
-    if (!p.line_of_sight || !robot.is_tree(k) || k == robot.parent || m.parent == robot.self.id) continue;
+    if (!p.line_of_sight || width <= 0.0F || !robot.is_tree(k) || k == robot.parent || m.parent == robot.self.id)
+      continue;
     const int up = table.find(m.parent);
     if (up < 0) continue;
     const Vec2 along = unit(table.position(up) - table.position(k));
@@ -134,18 +135,7 @@ bool awaits_the_unheard(const Robot& robot) noexcept {
 
 bool is_to_be_charged(const Robot& robot) noexcept { return charging_place(robot) != nullptr; }
 
-// The neighbour through which the post is nearest, -1: there is none.
-int caller(const Robot& robot) noexcept {
-  const Table& table = robot.table();
-  const State& self = robot.self;
-  if (self.call.source == nobody || self.leaving) return -1;
-  return least_of(table.size(), not_counted, [&](int j) {
-    const Call& c = robot.said(j).call;
-    const bool leads = table.age(j) <= 1 && c.source == self.call.source && c.hops < self.call.hops;
-    return leads ? static_cast<float>(c.hops) + 0.5F * table.range(j) : not_counted;
-  });
-}
-bool is_called(const Robot& robot) noexcept { return caller(robot) >= 0; }
+bool is_called(const Robot& robot) noexcept { return robot.caller >= 0; }
 
 bool always(const Robot& /*robot*/) noexcept { return true; }
 
@@ -187,7 +177,7 @@ Vec2 to_charging_place(Robot& robot) noexcept {
 // direction in which its branch leads; else to that one.
 Vec2 to_post(Robot& robot) noexcept {
   constexpr float past = 0.5F;  // C
-  const int k = caller(robot);
+  const int k = robot.caller;
   const Vec2 at = robot.position(k);
   const Statement& m = robot.said(k);
   const int up = robot.is_tree(k) ? robot.table().find(m.parent) : -1;
@@ -250,7 +240,9 @@ void limit_motion(const Robot& robot, Guard& guard) noexcept {
   const bool by_memory = robot.self.serves != nobody && robot.self.serves != robot.self.id;
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
-    if (is_promised(robot, k)) {
+    // A half-plane that allows full speed is not worth asking for.
+    const bool is_free = table.age(k) <= robot.hidden_after() && 0.5F * (p.longest_edge - d) * p.guard_rate >= 1.0F;
+    if (!is_free && is_promised(robot, k)) {
       // Of a silent one that may have driven on I stay at least as near as I am; beyond where signals fade I come
       // nearer.
       constexpr float near = 0.77F;  // C

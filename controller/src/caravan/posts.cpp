@@ -14,8 +14,7 @@ bool has_post(Robot& robot) noexcept {
   const bool needs = self.role != Role::spare && robot.parent >= 0 && robot.is_wanted() &&
                      robot.range(robot.parent) > robot.params.late_start;
   // A part of the network that does not hear me: somebody else may be heard.
-  for (int k = 0; k < robot.table().size(); ++k)
-    if (robot.is_gap(k)) return true;
+  if (robot.has_gap) return true;
   if (self.leaving && self.role != Role::spare) return true;
   if (!needs) self.unserved_rounds = 0;
   else robot.add_elapsed(self.unserved_rounds);
@@ -27,6 +26,18 @@ std::uint8_t urgency(const State& self) noexcept {
   constexpr float at_once = 0.1F;  // of a full battery
   constexpr float hops = 20.0F;    // for a full one
   return self.leaving ? static_cast<std::uint8_t>(hops * std::max(0.0F, self.level - at_once)) : std::uint8_t{0};
+}
+
+// The neighbour through which the post is nearest, -1: there is none.
+int caller(const Robot& robot) noexcept {
+  const Table& table = robot.table();
+  const State& self = robot.self;
+  if (self.call.source == nobody || self.leaving) return -1;
+  return least_of(table.size(), not_counted, [&](int k) {
+    const Call& c = robot.said(k).call;
+    const bool leads = table.age(k) <= 1 && c.source == self.call.source && c.hops < self.call.hops;
+    return leads ? static_cast<float>(c.hops) + 0.5F * table.range(k) : not_counted;
+  });
 }
 
 }  // namespace
@@ -61,6 +72,7 @@ void call_spares(Robot& robot) noexcept {
     self.ended_rounds = 0;
     self.call = {};
   }
+  if (self.role == Role::spare) robot.caller = caller(robot);
 }
 
 }  // namespace banyan::caravan

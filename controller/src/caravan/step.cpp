@@ -54,6 +54,7 @@ void index_neighbors(Robot& robot) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     const Statement& m = robot.said(k);
     if (m.parent == self.id && m.role != Role::spare) robot.children.set(k, true), ++robot.child_count;
+    robot.has_gap |= robot.is_gap(k);
   }
 }
 

@@ -164,11 +164,14 @@ void follow_root(Robot& robot) noexcept {
   root.name = root_name;
   for (const Heard& h : robot.heard) {
     const Message& m = *h.message;
-    if (m.id == self.id || m.root.id == nobody || robot.is_deaf(robot.table().find(m.id))) continue;
-    if (is_newer(m.root, self.newest)) self.newest = m.root;
-    if (m.root != self.newest) continue;
-    if (root.holder != m.root.id || is_news(m.beat, root.beat, root.age))
-      root.holder = m.root.id, root.beat = m.beat, root.age = 0;
+    if (m.id == self.id || m.root.id == nobody) continue;
+    const bool is_new_root = is_newer(m.root, self.newest);
+    if (!is_new_root && m.root != self.newest) continue;
+    const bool advances = root.holder != m.root.id || is_news(m.beat, root.beat, root.age);
+    if (!advances && m.id != m.root.id) continue;  // most tell nothing new
+    if (robot.is_deaf(robot.table().find(m.id))) continue;
+    if (is_new_root) self.newest = m.root;
+    if (advances) root.holder = m.root.id, root.beat = m.beat, root.age = 0;
     if (m.id == m.root.id) root.place = h.position, root.located = true;
   }
   if (robot.is_root()) root.holder = self.id, root.beat = self.beat, root.age = 0, root.place = {}, root.located = true;

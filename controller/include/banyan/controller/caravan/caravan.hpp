@@ -23,7 +23,7 @@ void note_return(Robot& robot, int k, int silence) noexcept;  // neighbour k is 
 void note_named(Robot& robot, int k, RobotId before) noexcept;
 // How far neighbour k may have driven since it was heard, C; 0 where silence is no loss.
 [[nodiscard]] float strayed(const Robot& robot, int k) noexcept;
-// The longest that the link to it may be; it is a promise.
+// The link to it is to hold: I obey its half-plane, and remember it however silent it is.
 [[nodiscard]] bool is_promised(const Robot& robot, int k) noexcept;
 
 // ---- order.cpp: foundation 1 ----

@@ -2,6 +2,9 @@
 // A robot of caravan in one step: what it remembers, and what follows from that in this round.
 #pragma once
 
+#include <algorithm>
+#include <span>
+
 #include "banyan/controller/caravan/params.hpp"
 #include "banyan/controller/caravan/state.hpp"
 #include "banyan/controller/core/gate.hpp"
@@ -27,6 +30,8 @@ struct Robot {
   int other = -1;
   Rows children{};  // robots of the tree that name me as their parent
   int child_count = 0;
+  bool has_gap = false;  // one of the table does not hear me, and nothing else joins its part to mine
+  int caller = -1;       // of a spare: the neighbour through which the nearest post is reached
 
   [[nodiscard]] Table& table() noexcept { return self.neighbors; }
   [[nodiscard]] const Table& table() const noexcept { return self.neighbors; }

@@ -2,9 +2,11 @@
 // All that a robot of caravan remembers between two steps.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <span>
-#include "banyan/controller/caravan/message.hpp"
 
+#include "banyan/controller/caravan/message.hpp"
 #include "banyan/controller/core/neighbors.hpp"
 #include "banyan/controller/obstacles/way_round.hpp"
 
@@ -12,8 +14,8 @@ namespace banyan::caravan {
 
 struct Table : Neighbors {
   std::array<Statement, neighbor_capacity> statements{};
-  std::array<std::uint8_t, neighbor_capacity>
-      passes{};  // how often in a row it has passed me over as one that it hears
+  // How often in a row it has passed me over as one that it hears.
+  std::array<std::uint8_t, neighbor_capacity> passes{};
 };
 
 // The root's token, or a target's: a name, a holder, a count and a place.
@@ -42,8 +44,8 @@ struct State : Message {
   std::uint8_t token_count = 1;
   std::uint8_t turn = 0;  // which token is told next
   std::uint8_t urgent_turn = 0;
-  std::uint16_t news_gap =
-      200;  // sixteenths of rounds: the longest time of late without news of a holder that was there
+  // Sixteenths of rounds: the longest time of late without news of a holder that was there.
+  std::uint16_t news_gap = 200;
   std::array<Token, most_tokens> tokens{};  // the first `token_count`; the root's is the first
   bool rests = false;                       // its beat, so that another robot gets ahead
   std::uint16_t other_rounds = 0;           // for how long the old promise has stood beside the new one
