@@ -104,27 +104,25 @@ std::string rival_of(const std::string& file) {
   return std::regex_match(file, m, in_rivals) && m[1] != "common" ? m[1].str() : "";
 }
 
-// The paper's algorithms and caravan share nothing with others but core/: their names are theirs.
-bool has_names_of_its_own(const std::string& file) {
-  return file.starts_with("controller/") &&
-         (file.find("/paper/") != std::string::npos || file.find("/caravan/") != std::string::npos);
+// The paper's algorithms and caravan share nothing with others but core/: their names are theirs. "" for the rest.
+std::string room_of_its_own(const std::string& file) {
+  std::smatch m;
+  static const std::regex own(R"(^controller/(?:include/banyan/controller|src)/(paper|caravan)/.*)");
+  return std::regex_match(file, m, own) ? m[1].str() : "";
 }
-bool is_of_another_algorithm(const std::string& file) {
+bool is_in_core(const std::string& file) {
   static const std::regex in_core(R"(^controller/(include/banyan/controller|src)/core/.*)");
-  return !has_names_of_its_own(file) && (file.starts_with("rivals/") || file.starts_with("controller/")) &&
-         !std::regex_match(file, in_core);
+  return std::regex_match(file, in_core);
+}
+bool is_of_an_algorithm(const std::string& file) {
+  return (file.starts_with("rivals/") || file.starts_with("controller/")) && !is_in_core(file);
 }
 
 bool are_one(const Definition& a, const Definition& b) {
-  const bool of_two_rivals =
-      !rival_of(a.file).empty() && !rival_of(b.file).empty() && rival_of(a.file) != rival_of(b.file);
-  const auto room = [](const Definition& d) {
-    return d.file.find("/paper/") != std::string::npos ? 1 : d.file.find("/caravan/") != std::string::npos ? 2 : 0;
-  };
-  const bool of_one = (has_names_of_its_own(a.file) && is_of_another_algorithm(b.file)) ||
-                      (has_names_of_its_own(b.file) && is_of_another_algorithm(a.file)) ||
-                      (has_names_of_its_own(a.file) && has_names_of_its_own(b.file) && room(a) != room(b));
-  return of_two_rivals || of_one || (!a.alias.empty() && a.alias == b.alias);
+  const auto differ = [&](std::string (*place)(const std::string&)) { return place(a.file) != place(b.file); };
+  const bool of_two_rivals = !rival_of(a.file).empty() && !rival_of(b.file).empty() && differ(rival_of);
+  const bool of_two_rooms = is_of_an_algorithm(a.file) && is_of_an_algorithm(b.file) && differ(room_of_its_own);
+  return of_two_rivals || of_two_rooms || (!a.alias.empty() && a.alias == b.alias);
 }
 
 std::string twice(const std::map<std::string, std::string>& files) {
@@ -184,6 +182,8 @@ TEST(TypeNames, RivalsAreComparedWithTheRoomsAlone) {
   EXPECT_EQ(twice({{"rivals/one/src/a.cpp", x}, {"rivals/two/src/a.cpp", x}}), "");
   EXPECT_NE(twice({{"rivals/one/src/a.cpp", x}, {"rivals/one/src/b.cpp", x}}), "");
   EXPECT_EQ(twice({{"controller/src/paper/a.cpp", x}, {"controller/src/tree/a.cpp", x}}), "");
+  EXPECT_EQ(twice({{"controller/src/paper/a.cpp", x}, {"controller/src/caravan/a.cpp", x}}), "");
+  EXPECT_NE(twice({{"controller/src/caravan/a.cpp", x}, {"controller/src/caravan/b.cpp", x}}), "");
   EXPECT_EQ(twice({{"controller/src/paper/a.cpp", x}, {"rivals/two/src/a.cpp", x}}), "");
   EXPECT_NE(twice({{"controller/src/paper/a.cpp", x}, {"controller/src/core/a.cpp", x}}), "");
   EXPECT_NE(twice({{"controller/src/paper/a.cpp", x}, {"record/src/a.cpp", x}}), "");

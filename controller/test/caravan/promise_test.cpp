@@ -97,41 +97,39 @@ TEST(CaravanPromise, AChildWhoseParentDiesGoesToWhereItWas) {
   EXPECT_LT(world.until(200, [&] { return world.said(2).parent == 0; }), 100) << "by then in reach of the root";
 }
 
-TEST(CaravanPromise, AParentStaysForAChildThatHasNoOther) {
-  // Worker 1 wants to go to the left, worker 2 is at its target, and does not hear the root.
+// Worker 1 wants to go to the left; its child, worker 2, is at its target, and does not hear the root.
+constexpr Vec2 to_the_left{-0.3F, 0.8F};
+TinyWorld held_back() {
   TinyWorld world({{0, 0}, {0.3F, 0.3F}, {0.6F, -0.3F}}, {1, 2});
-  const Vec2 target{-0.3F, 0.8F};
-  world.send(1, target);
+  world.send(1, to_the_left);
   world.send(2, {0.6F, -0.3F});
   world.hold(0);
   world.hold(2);
   world.part(0, 2);
   world.steps(300);
+  return world;
+}
+
+TEST(CaravanPromise, AParentStaysForAChildThatHasNoOther) {
+  TinyWorld world = held_back();
   ASSERT_EQ(world.said(2).parent, 1);
   EXPECT_LE(world.between(1, 2), longest_edge + 1e-3F);
-  EXPECT_GT(world.to(1, target), 0.3F);
+  EXPECT_GT(world.to(1, to_the_left), 0.3F);
   // As soon as the child has named another, it is free.
   world.part(0, 2, false);
   EXPECT_LT(world.until(60, [&] { return world.said(2).parent == 0; }), 20);
-  EXPECT_LT(world.until(300, [&] { return world.to(1, target) <= 0.1F; }), 200);
+  EXPECT_LT(world.until(300, [&] { return world.to(1, to_the_left) <= 0.1F; }), 200);
   EXPECT_GT(world.between(1, 2), 1.0F);
 }
 
 // Not for ever: once the child has been silent for a lease.
 TEST(CaravanPromise, AParentIsFreeOnceItsChildHasBeenSilentForALease) {
-  TinyWorld world({{0, 0}, {0.3F, 0.3F}, {0.6F, -0.3F}}, {1, 2});
-  const Vec2 target{-0.3F, 0.8F};
-  world.send(1, target);
-  world.send(2, {0.6F, -0.3F});
-  world.hold(0);
-  world.hold(2);
-  world.part(0, 2);
-  world.steps(300);
+  TinyWorld world = held_back();
   world.kill(2);
   world.steps(50);
   EXPECT_LE(world.between(1, 2), longest_edge + 1e-3F) << "it may only be hidden";
   world.steps(300);
-  EXPECT_LE(world.to(1, target), 0.1F);
+  EXPECT_LE(world.to(1, to_the_left), 0.1F);
 }
 
 // Who hears somebody that has no parent yet may be all that it has.
