@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The ledger's missions: bench/ledger.toml made into a study, played by `banyan study`, read back as rows.
+"""The ledger's missions: bench/ledger.toml made into a study, played by a program that is built here, read back as rows.
 
 A row is keyed by (set, class, mission, seed), where set is work or report and a mission's name lists its axes' labels.
 """
@@ -20,6 +20,16 @@ KEPT = ['git', 'robots', 'ticks', 'time_s', 'complete', 'time_limit_s', 'time_bo
 
 class Failed(Exception):
     """The program or its results cannot be used; the text says why."""
+
+
+def build(source, folder, log):
+    """Builds the program of a checkout in `folder`; its path."""
+    with open(log, 'w') as out:
+        for command in (['cmake', '-S', source, '-B', folder, '-G', 'Ninja', '-DCMAKE_BUILD_TYPE=Release', '-DBANYAN_BUILD_TESTS=OFF',
+                         '-DBANYAN_BUILD_EXAMPLES=OFF', '-DBANYAN_JOIN=ON'], ['ninja', '-C', folder, 'banyan_cli']):
+            if subprocess.run(list(map(str, command)), stdout=out, stderr=out).returncode:
+                raise Failed(f'the build of {source} failed; see {log}')
+    return folder / 'bin' / 'banyan'
 
 
 @dataclass
