@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <list>
@@ -101,14 +102,16 @@ class Crowd final : public httplib::TaskQueue {
   // On a thread of ours.
   void enter(socket_t socket) {
     const std::lock_guard lock(mutex_);
-    staying_.push_back(socket);
+    // By arrival: a thread may pause between taking its visitor and coming here.
+    const auto later = std::ranges::find_if(staying_, [](const Visitor& v) { return v.arrival > taken_as; });
+    staying_.insert(later, {socket, taken_as});
     if (ending_) send_away();
     else make_room();
   }
   // Under the lock: the number of a closed socket may be reused at once.
   void leave(socket_t socket) {
     const std::lock_guard lock(mutex_);
-    if (staying_.remove(socket) == 0) --leaving_;
+    if (staying_.remove_if([&](const Visitor& v) { return v.socket == socket; }) == 0) --leaving_;
     ::shutdown(socket, SHUT_RDWR);
     ::close(socket);
   }
@@ -131,6 +134,7 @@ class Crowd final : public httplib::TaskQueue {
       if (waiting_.empty()) return;
       const auto visit = std::move(waiting_.front());
       waiting_.pop_front();
+      taken_as = arrivals_++;
       lock.unlock();
       visit();
       lock.lock();
@@ -143,21 +147,30 @@ class Crowd final : public httplib::TaskQueue {
     while (waiting_.size() > idle_ + leaving_ && !staying_.empty()) send_away();
   }
   void send_away() {
-    ::shutdown(staying_.front(), SHUT_RDWR);
+    ::shutdown(staying_.front().socket, SHUT_RDWR);
     staying_.pop_front();
     ++leaving_;
   }
 
+  struct Visitor {
+    socket_t socket;
+    std::uint64_t arrival;
+  };
+  static thread_local std::uint64_t taken_as;  // arrival of this thread's visitor
+
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::function<void()>> waiting_;
-  std::list<socket_t> staying_;  // the first has been there longest
-  std::size_t leaving_ = 0;      // sent away, but not gone yet
+  std::uint64_t arrivals_ = 0;
+  std::list<Visitor> staying_;  // the first has been there longest
+  std::size_t leaving_ = 0;     // sent away, but not gone yet
   std::size_t idle_ = 0;
   bool ending_ = false;
   bool no_more_ = false;  // threads than there are
   std::vector<std::thread> threads_;
 };
+
+thread_local std::uint64_t Crowd::taken_as = 0;
 
 PatientServer::PatientServer(std::chrono::milliseconds patience) : patience_(patience) {
   new_task_queue = [this] { return crowd_ = new Crowd; };  // httplib deletes it

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <httplib.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -295,6 +296,8 @@ TEST_F(View, SlowVisitorsDoNotKeepTheNextOneWaiting) {
     EXPECT_EQ(answer->status, 200);
   }
   // Whoever has been there longest gave way, whoever came last is still there.
+  pollfd first{slow.front(), POLLIN, 0};
+  ASSERT_EQ(::poll(&first, 1, 60'000), 1);
   char byte = 0;
   EXPECT_LE(::recv(slow.front(), &byte, 1, 0), 0);
   EXPECT_EQ(::recv(slow.back(), &byte, 1, MSG_DONTWAIT), -1);
