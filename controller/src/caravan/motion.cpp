@@ -31,7 +31,7 @@ Vec2 tow(const Robot& robot) noexcept {
   const Params& p = robot.params;
   int towing = 0;
   robot.children.for_each([&](int k) { towing += robot.said(k).want > 0 ? 1 : 0; });
-  const float start = robot.is_root() || towing > 1 ? p.late_start : p.pull_start;
+  const float start = towing > 1 ? p.need_distance : p.pull_start;
   Vec2 u;
   robot.children.for_each([&](int k) {
     const Statement& m = robot.said(k);
@@ -191,9 +191,8 @@ Vec2 to_post(Robot& robot) noexcept {
 }
 
 Vec2 near_parent(Robot& robot) noexcept {
-  constexpr float stays = 0.9F;  // C
   if (robot.parent < 0) return {};
-  const float reach = is_thin(robot) ? stays : robot.is_tree(robot.parent) ? follow_tree : follow_spare;
+  const float reach = robot.is_tree(robot.parent) ? follow_tree : follow_spare;
   return to_parent(robot) * ramp(robot.range(robot.parent), reach, robot.params.pull_width);
 }
 

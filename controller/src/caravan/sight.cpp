@@ -5,7 +5,7 @@
 namespace banyan::caravan {
 namespace {
 
-constexpr float costs_hidden = 2.0F;  // C: the line is blocked
+constexpr float costs_hidden = 5.0F;  // C: the line is blocked
 constexpr float corner_room = 0.05F;  // an edge has to pass a corner so far off
 constexpr float same_corner = 0.1F;
 
