@@ -7,6 +7,8 @@
 namespace banyan::caravan {
 namespace {
 
+bool is_worker(const Robot& robot) noexcept { return robot.self.role == Role::worker; }
+
 constexpr float tension_start = 0.15F;  // C
 constexpr float pinned_start = 0.125F;
 constexpr float pinned_width = 0.05F;
@@ -97,7 +99,8 @@ Vec2 make_room(const Robot& robot, float width) noexcept {
     if (robot.is_lost(k)) continue;
     const Statement& m = robot.said(k);
     const bool linked = k == robot.parent || m.parent == robot.self.id;
-    if (!(linked && robot.is_tree(k) && robot.self.role != Role::spare))
+    const bool both_workers = is_worker(robot) && m.role == Role::worker;  // they may meet head-on at a wall
+    if (!linked || !robot.is_tree(k) || robot.self.role == Role::spare || both_workers)
       push(table.position(k), m.role == Role::spare ? p.room : of_tree * p.room, {});
     if (!p.line_of_sight || width <= 0.0F || !robot.is_tree(k) || k == robot.parent || m.parent == robot.self.id)
       continue;
@@ -117,7 +120,6 @@ Vec2 make_room(const Robot& robot, float width) noexcept {
 // ---- The goals ----
 
 bool has_lost_parent(const Robot& robot) noexcept { return robot.parent >= 0 && robot.is_lost(robot.parent); }
-bool is_worker(const Robot& robot) noexcept { return robot.self.role == Role::worker; }
 bool is_towed(const Robot& robot) noexcept { return robot.self.role != Role::spare && robot.self.want > 0; }
 bool has_arrived(const Robot& robot) noexcept { return robot.self.role != Role::spare; }
 
@@ -251,7 +253,7 @@ void limit_motion(const Robot& robot, Guard& guard) noexcept {
       guard.add(table.position(k), longest, p.guard_rate);
     }
     // One that is pushed does not notice, and is wrong about places from then on.
-    const bool pushes = robot.said(k).role == Role::worker || by_memory;
+    const bool pushes = (robot.said(k).role == Role::worker && !is_worker(robot)) || by_memory;
     if (pushes && table.age(k) == 0 && d < touching + 0.05F && d > 0.0F)
       guard.add_limit(table.position(k) / d, std::max(0.0F, d - touching) * p.guard_rate);
   }

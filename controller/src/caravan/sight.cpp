@@ -7,7 +7,6 @@ namespace {
 
 constexpr float costs_hidden = 5.0F;  // C: the line is blocked
 constexpr float corner_room = 0.05F;  // an edge has to pass a corner so far off
-constexpr float same_corner = 0.1F;
 
 // The point of the line from me to `to` that is nearest to corner `c`, as a share of the way; and how far off it is.
 struct Passing {
@@ -19,31 +18,69 @@ Passing passing(Vec2 to, Vec2 c) noexcept {
   return {share, c - to * share};
 }
 
+// How far it is from the nearest of my edges: the farther, the less it matters.
+float to_edges(const Robot& robot, Vec2 c) noexcept {
+  float nearest = norm(c);
+  const auto note = [&](int k) { nearest = std::min(nearest, distance_to_segment(c, Vec2{}, robot.position(k))); };
+  if (robot.parent >= 0) note(robot.parent);
+  robot.children.for_each(note);
+  return nearest;
+}
+
+// Where there is no room, the one that matters least is dropped.
+void file(Robot& robot, Vec2 c) noexcept {
+  State& self = robot.self;
+  std::size_t at = self.corner_count;
+  for (std::size_t k = 0; k < self.corner_count; ++k)
+    if (distance(self.corners[k], c) < corner_room) return;
+  if (at == most_corners) {
+    at = 0;
+    for (std::size_t k = 1; k < most_corners; ++k)
+      if (to_edges(robot, self.corners[k]) > to_edges(robot, self.corners[at])) at = k;
+    if (to_edges(robot, c) >= to_edges(robot, self.corners[at])) return;
+  } else if (at == self.corner_count) {
+    ++self.corner_count;
+  }
+  self.corners[at] = c;
+}
+
 }  // namespace
 
-// The nearest are kept.
+// Those that I have passed, and those that others say are near their edges.
 void remember_corners(Robot& robot) noexcept {
   State& self = robot.self;
   for (std::size_t k = 0; k < self.corner_count; ++k) self.corners[k] = robot.carry.point(self.corners[k]);
-  for (const Vec2 o : robot.obstacles) {
-    std::size_t at = self.corner_count;
-    for (std::size_t k = 0; k < self.corner_count; ++k)
-      if (distance(self.corners[k], o) < same_corner) at = k;
-    if (at == most_corners) {
-      at = 0;
-      for (std::size_t k = 1; k < most_corners; ++k)
-        if (norm(self.corners[k]) > norm(self.corners[at])) at = k;
-    } else if (at == self.corner_count) {
-      ++self.corner_count;
-    }
-    self.corners[at] = o;
+  if (!robot.params.line_of_sight) return;
+  for (const Heard& h : robot.heard) {
+    const Message& m = *h.message;
+    if (m.corner_x.bits == 0 && m.corner_y.bits == 0) continue;
+    const int up = robot.table().find(m.parent);
+    if (m.parent != self.id && up < 0) continue;
+    const Vec2 upper = m.parent == self.id ? Vec2{} : robot.position(up);
+    file(robot, upper + from_edge_frame({m.corner_x.value(), m.corner_y.value()}, h.position - upper));
   }
+  for (const Vec2 o : robot.obstacles) file(robot, o);
   self.pinned = false;
-  if (!robot.params.line_of_sight || robot.parent < 0 || !robot.is_wanted()) return;
+  if (robot.parent < 0 || !robot.is_wanted()) return;
   for (std::size_t k = 0; k < self.corner_count; ++k)
     if (const Passing by = passing(robot.position(robot.parent), self.corners[k]);
         by.share > 0.0F && by.share < 1.0F && norm(by.off) < corner_room)
       self.pinned = true;
+}
+
+void tell_corner(Robot& robot) noexcept {
+  constexpr float near = 0.15F;  // C
+  State& self = robot.self;
+  self.corner_x = self.corner_y = {};
+  if (robot.parent < 0) return;
+  const Vec2 parent = robot.position(robot.parent);
+  float best = near;
+  for (std::size_t k = 0; k < self.corner_count; ++k) {
+    const Passing by = passing(parent, self.corners[k]);
+    if (by.share <= 0.0F || by.share >= 1.0F || norm(by.off) >= best) continue;
+    best = norm(by.off);
+    write_in_edge_frame(self.corners[k] - parent, parent, self.corner_x, self.corner_y);
+  }
 }
 
 float hazard(const Robot& robot, int k) noexcept {

@@ -106,6 +106,7 @@ Output<Message> step(const Params& params, State& state, const Inputs<Heard>& in
   remember_corners(robot);
   watch_charge(robot, inputs);
   choose_parent(robot);
+  tell_corner(robot);
   keep_up(robot);
   call_spares(robot);
   state.named = state.neighbors.next_heard(state.named, robot.liveness());

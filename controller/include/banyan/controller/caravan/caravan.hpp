@@ -36,6 +36,7 @@ void keep_up(Robot& robot) noexcept;
 // ---- sight.cpp: what hides an edge ----
 
 void remember_corners(Robot& robot) noexcept;
+void tell_corner(Robot& robot) noexcept;  // the nearest to the edge to my parent
 // What the line to neighbour k may cost soon, C: robots and corners near it.
 [[nodiscard]] float hazard(const Robot& robot, int k) noexcept;
 // Keeps corners out of the lines along my edges.

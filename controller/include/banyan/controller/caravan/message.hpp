@@ -70,6 +70,8 @@ struct Message : Statement {
   static constexpr std::uint8_t blocks = 0;
   RobotId id = nobody;
   TokenNews token;
+  Coordinate corner_x;  // the corner nearest to my edge - my parent, in the frame of the edge to it; 0, 0: none
+  Coordinate corner_y;
 
   friend bool operator==(const Message&, const Message&) = default;
 };
@@ -101,6 +103,9 @@ template <class Visitor, class M> constexpr void visit_all(Visitor& visit, M& m)
   visit.robot("told", "the neighbour that is told its place, -1: nobody", m.token.told);
   visit.coordinate("token_x", "the place relative to `told`, along the edge from the sender to it", m.token.x);
   visit.coordinate("token_y", "the same, to the left of that edge", m.token.y);
+  visit.coordinate("corner_x", "the corner nearest to the edge to the parent, relative to the parent, along that edge",
+                   m.corner_x);
+  visit.coordinate("corner_y", "the same, to the left of that edge; 0, 0: none is near", m.corner_y);
 }
 template <class Visitor> constexpr void visit_fields(Visitor& visit, Message& m) noexcept { visit_all(visit, m); }
 template <class Visitor> constexpr void visit_fields(Visitor& visit, const Message& m) noexcept { visit_all(visit, m); }
