@@ -114,6 +114,7 @@ Output<Message> step(const Params& params, State& state, const Inputs<Heard>& in
   Guard guard;
   limit_motion(robot, guard);
   const Vec2 v = clamped(guard.apply(wish * params.speed_gain), 1.0F);
+  watch_progress(robot, v);
   Output<Message> output{static_cast<const Message&>(state), drive(v, guard, params)};
   output.message.token = told_in_turn(robot);
   return output;
@@ -139,7 +140,7 @@ void add_to(Digest& digest, const State& s) noexcept {
   FieldDigest visit{digest};
   const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };
   visit_fields(visit, static_cast<const Message&>(s));
-  add(s.level, s.was_charged, s.seeks_charge, s.newest.sequence, s.newest.id, s.serves, s.was_sent, s.token_count,
+  add(s.level, s.was_charged, s.seeks_charge, s.newest.sequence, s.newest.id, s.serves, s.was_sent, s.unfit, s.nearest, s.effort, s.stuck_rounds, s.token_count,
       s.turn, s.urgent_turn, s.news_gap, s.since_start, s.rests, s.other_rounds, s.rest_rounds, s.childless_rounds,
       s.left, s.ended.source, s.ended.count, s.ended_rounds, s.post_count, s.call_silence, s.unserved_rounds,
       s.expected_packets, s.missed_packets, s.loss_rounds, s.assumed_silence, s.burst, s.round, s.neighbors.size());

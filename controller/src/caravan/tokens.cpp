@@ -82,7 +82,8 @@ void become_root(Robot& robot) noexcept {
   self.parent = nobody;
 }
 
-void take_news(Token& t, const TokenNews& news) noexcept {
+void take_news(State& self, Token& t, const TokenNews& news) noexcept {
+  if (news.holder == put_off && t.holder != put_off) self.stuck_rounds = 0;  // robots may suffice now
   t.holder = news.holder, t.beat = news.beat, t.reached = news.reached, t.age = 0;
 }
 
@@ -110,7 +111,7 @@ void settle_rivalry(Robot& robot, Token& t, const TokenNews& news) noexcept {
   if (news.holder == self.id || news.holder == nobody || ahead_by(news.beat, t.beat) < -rival_beats) return;
   if (has_precedence(news.holder, news.reached, self.id, t.reached, news.name)) {
     self.serves = nobody;
-    take_news(t, news);
+    take_news(self, t, news);
     t.urgent = urgent_rounds;
   } else {
     t.beat = advanced(news.beat, takeover_beats);  // so that it hears of me
@@ -155,7 +156,7 @@ void hear_token(Robot& robot, const Heard& h) noexcept {
   } else {
     t->urgent = urgent_rounds;
   }
-  take_news(*t, news);
+  take_news(self, *t, news);
 }
 
 void follow_root(Robot& robot) noexcept {
@@ -180,7 +181,7 @@ void follow_root(Robot& robot) noexcept {
 void mind_own(Robot& robot, const Orders& orders) noexcept {
   State& self = robot.self;
   for (Token& t : self.known())
-    if (t.name != root_name && t.holder == self.id && t.name != self.serves) announce(t, nobody);
+    if (t.name != root_name && t.holder == self.id && t.name != self.serves && !self.unfit) announce(t, nobody);
   if (orders.target && self.was_sent) {
     Token* t = find(self, self.id);
     if (t == nullptr) t = add(self, self.id, *orders.target);
@@ -209,6 +210,8 @@ int way_of_news(const Robot& robot, const Token& t) noexcept {
 
 bool is_silent(const Robot& robot, const Token& t) noexcept {
   const Params& p = robot.params;
+  if (t.holder == put_off)
+    return robot.self.call.source == nobody && t.age > p.rounds(p.retry_drives) + whole(p.takeover_spread * norm(t.place));
   const int late = t.name == root_name ? 0 : std::max(2 * robot.self.news_gap / per_round, way_of_news(robot, t));
   return t.age > 2 * robot.liveness() + late + whole(p.takeover_rounds + p.takeover_spread * norm(t.place));
 }
@@ -234,7 +237,7 @@ void take_over(Robot& robot) noexcept {
     ++self.tally.elections;
     return;
   }
-  if (self.role != Role::spare || root.age > 2 * robot.liveness()) return;
+  if (self.role != Role::spare || self.unfit || root.age > 2 * robot.liveness()) return;
   for (Token& t : self.known()) {
     if (t.name == root_name || !t.located || t.holder == nobody || !is_silent(robot, t)) continue;
     self.serves = t.name;
@@ -276,6 +279,30 @@ void keep_tokens(Robot& robot, const Orders& orders) noexcept {
     if (h.message->id != self.id) hear_token(robot, h);
   }
   take_over(robot);
+}
+
+void watch_progress(Robot& robot, Vec2 v) noexcept {
+  constexpr float nearer = 0.05F;  // C
+  constexpr float in_vain = 1.0F;
+  State& self = robot.self;
+  const Params& p = robot.params;
+  Token* const t = self.serves == nobody ? nullptr : find(self, self.serves);
+  if (t == nullptr || !t->located || t->reached) {
+    self.nearest = not_counted, self.effort = 0.0F, self.stuck_rounds = 0;
+    return;
+  }
+  const float way = norm(t->place);
+  if (way < self.nearest - nearer) self.nearest = way, self.effort = 0.0F, self.stuck_rounds = 0;
+  const auto rounds = static_cast<float>(robot.elapsed_rounds);
+  self.effort = std::max(0.0F, self.effort + dot(v, unit(t->place)) * p.way_in_a_round() * rounds);
+  if (self.call.source == nobody) self.stuck_rounds = 0;
+  else robot.add_elapsed(self.stuck_rounds);
+  // The farthest target takes most robots: its worker loses patience first.
+  const bool waits_in_vain = self.stuck_rounds > p.rounds(p.give_up_drives * (1.0F + 1.0F / (1.0F + way)));
+  if (self.effort < in_vain && !waits_in_vain) return;
+  self.unfit |= self.effort >= in_vain;
+  self.serves = nobody;
+  if (waits_in_vain) announce(*t, put_off);
 }
 
 // The next token, or every second time the next that is urgent; the neighbour that is told places changes with each

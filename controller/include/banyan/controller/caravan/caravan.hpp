@@ -63,6 +63,8 @@ void call_spares(Robot& robot) noexcept;
 
 void follow_orders(Robot& robot, const Orders& orders) noexcept;
 void keep_tokens(Robot& robot, const Orders& orders) noexcept;
+// A worker that comes no nearer, with the velocity v that is left to it, lets another one try, or none.
+void watch_progress(Robot& robot, Vec2 v) noexcept;
 [[nodiscard]] TokenNews told_in_turn(Robot& robot) noexcept;
 // No root has been heard of for long.
 [[nodiscard]] bool is_cut_off(const Robot& robot) noexcept;
