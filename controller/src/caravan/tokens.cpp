@@ -14,6 +14,7 @@ constexpr int gap_memory = 64;          // pieces of news
 constexpr int first_root_rounds = 200;  // by then the first root would have been heard
 constexpr float beside = 1.0F;          // C: only a robot so near to where the root was may become root
 constexpr float trust = 0.2F;           // in a place that is only remembered
+constexpr float least_edge = 0.3F;      // C: of a shorter one the bearing of a round ago is too wrong
 
 Token* find(State& self, RobotId name) noexcept {
   for (Token& t : self.known())
@@ -135,10 +136,16 @@ void hear_token(Robot& robot, const Heard& h) noexcept {
   const TokenNews& news = h.message->token;
   if (news.name == nobody) return;
   // What the sender wrote refers to where both were a round ago; over a distance an old bearing makes a large error.
-  const bool told = news.told == self.id && !(h.before == Vec2{});
-  const Vec2 place =
-      robot.carry.point({}) + from_edge_frame({news.x.value(), news.y.value()}, robot.carry.vector(h.before));
+  const Vec2 written = {news.x.value(), news.y.value()};
+  bool told = news.told == self.id && !(h.before == Vec2{});
+  Vec2 place = robot.carry.point({}) + from_edge_frame(written, robot.carry.vector(h.before));
   Token* t = find(self, news.name);
+  // Who does not know the place yet takes what another one is told, if it hears both.
+  if (const int k = told || (t != nullptr && t->located) ? -1 : robot.table().find(news.told);
+      k >= 0 && distance(h.position, robot.position(k)) > least_edge) {
+    told = true;
+    place = robot.position(k) + from_edge_frame(written, h.position - robot.position(k));
+  }
   if (t == nullptr) {
     if (!told || (t = add(self, news.name, place)) == nullptr) return;
     t->beat = advanced(news.beat, -1);
@@ -274,7 +281,7 @@ void keep_tokens(Robot& robot, const Orders& orders) noexcept {
     const TokenNews& news = h.message->token;
     if (news.told != self.id && news.holder != self.id && news.name != self.serves)
       if (const Token* t = index.find(news.name);
-          t != nullptr && (news.name == root_name || !is_news(news.beat, t->beat, t->age)))
+          t != nullptr && t->located && (news.name == root_name || !is_news(news.beat, t->beat, t->age)))
         continue;
     if (h.message->id != self.id) hear_token(robot, h);
   }
