@@ -15,7 +15,7 @@ struct Params : Machine {
   float need_distance = 0.825F;  // a longer edge is worth a spare
   float pull_start = 0.675F;     // a child farther than this tows its parent
   float late_start = 0.90F;      // the root and junctions only from here on
-  float pull_width = 0.15F;
+  float pull_width = 0.1F;
   float tension_gain = 0.4F;
   float robot_cost = 1.0F;        // a robot more in the tree costs as much as a way so much longer
   float hysteresis = 0.2F;        // a new parent has to be so much cheaper
@@ -26,7 +26,7 @@ struct Params : Machine {
   float takeover_rounds = 15.0F;  // a holder silent for so long beyond 2 I is replaced
   float takeover_spread = 10.0F;  // rounds more per C from its place
   float retreat_rounds = 25.0F;   // the root silent for so long beyond 2 I: all go where it was
-  float guard_rate = 20.0F;
+  float guard_rate = 30.0F;
   float call_after_rounds = 20.0F;
   float give_up_drives = 6.0F;    // of waiting for spares in vain, once and again the nearer the target is
   float retry_drives = 12.0F;     // a target that was put off is tried again after so long
