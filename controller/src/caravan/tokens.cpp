@@ -304,8 +304,10 @@ void watch_progress(Robot& robot, Vec2 v) noexcept {
   self.effort = std::max(0.0F, self.effort + dot(v, unit(t->place)) * p.way_in_a_round() * rounds);
   if (self.call.source == nobody) self.stuck_rounds = 0;
   else robot.add_elapsed(self.stuck_rounds);
-  // The farthest target takes most robots: its worker loses patience first.
-  const bool waits_in_vain = self.stuck_rounds > p.rounds(p.give_up_drives * (1.0F + 1.0F / (1.0F + way)));
+  // As long as a spare takes to come from the root, and then some; the farthest target takes most robots, and its worker
+  // loses patience first.
+  const float patience = from_fixed(self.label) + p.give_up_drives * (1.0F + 1.0F / (1.0F + way));
+  const bool waits_in_vain = self.stuck_rounds > p.rounds(patience);
   if (self.effort < in_vain && !waits_in_vain) return;
   self.unfit |= self.effort >= in_vain;
   self.serves = nobody;

@@ -28,7 +28,7 @@ struct Params : Machine {
   float retreat_rounds = 25.0F;   // the root silent for so long beyond 2 I: all go where it was
   float guard_rate = 30.0F;
   float call_after_rounds = 20.0F;
-  float give_up_drives = 6.0F;    // of waiting for spares in vain, once and again the nearer the target is
+  float give_up_drives = 4.0F;    // of waiting for spares in vain, once and again the nearer the target is
   float retry_drives = 12.0F;     // a target that was put off is tried again after so long
   float relieve_below = 0.35F;    // of a full battery: a robot of the tree with less asks to be relieved
   float ready_above = 0.8F;       // a spare with less joins no edge
