@@ -76,10 +76,9 @@ Vec2 tension(const Robot& robot) noexcept {
 
 // While a post near by waits in vain, long edges take slack from short ones.
 Vec2 slack(const Robot& robot) noexcept {
-  constexpr int near_hops = 8;
   constexpr float gain = 2.0F;
   const Params& p = robot.params;
-  if (robot.self.call.source == nobody || robot.self.call.hops > near_hops) return {};
+  if (!robot.is_needed_near()) return {};
   return strings(robot, p.pull_start, p.longest_edge - p.pull_start) * gain;
 }
 

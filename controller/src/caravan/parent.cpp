@@ -46,10 +46,8 @@ float cost(const Robot& robot, int k) noexcept {
   if (m.leaving) c += costs_leaving;
   if (m.role == Role::worker && robot.self.want > 0 && !reaches_target_from(robot, k)) c += costs_leaving;
   // The parent serves only me, and could go.
-  if (robot.parent >= 0 && (is_parent || m.parent == robot.self.parent)) {
-    const Statement& up = robot.said(robot.parent);
-    if (up.role == Role::connector && up.children <= 1) c += p.robot_cost;
-  }
+  if (robot.parent >= 0 && (is_parent || m.parent == robot.self.parent) && robot.serves_only_me(robot.parent))
+    c += p.robot_cost;
   return c;
 }
 

@@ -67,6 +67,15 @@ struct Robot {
   }
   // And nothing else joins its part of the network to mine.
   [[nodiscard]] bool is_gap(int k) const noexcept { return is_deaf(k) && !is_lost(k) && said(k).root != self.newest; }
+  // Neighbour k, as I am its child, has no other one.
+  [[nodiscard]] bool serves_only_me(int k) const noexcept {
+    return said(k).role == Role::connector && said(k).children <= 1;
+  }
+  // A post waits in vain near by.
+  [[nodiscard]] bool is_needed_near() const noexcept {
+    constexpr int near_hops = 8;
+    return self.call.source != nobody && self.call.hops <= near_hops;
+  }
   void add_elapsed(std::uint16_t& rounds) const noexcept {
     rounds = static_cast<std::uint16_t>(std::min(rounds + elapsed_rounds, UINT16_MAX));
   }
