@@ -39,8 +39,8 @@ Vec2 tow(const Robot& robot) noexcept {
     const Statement& m = robot.said(k);
     // A child at a corner needs its parent there before it can go round.
     if (m.want > 0)
-      u += unit(robot.position(k)) *
-           (m.pinned ? ramp(robot.range(k), pinned_start, pinned_width) : ramp(robot.range(k), start, p.pull_width));
+      u += unit(robot.position(k)) * (m.pinned ? ramp(robot.range(k), pinned_start, pinned_width)
+                                               : ramp(robot.stretched(robot.range(k)), start, p.pull_width));
   });
   return clamped(u, 1.0F);
 }
@@ -57,7 +57,7 @@ Vec2 compaction(const Robot& robot) noexcept {
     if (longest < 0 || robot.range(k) > robot.range(longest)) longest = k;
   });
   if (longest < 0) return {};
-  const float slack = std::clamp((stretched - robot.range(longest)) / width, -1.0F, 1.0F);
+  const float slack = std::clamp((stretched - robot.stretched(robot.range(longest))) / width, -1.0F, 1.0F);
   return (slack > 0.0F ? unit(robot.position(robot.parent)) : -unit(robot.position(longest))) * (slack * gain);
 }
 
@@ -79,7 +79,8 @@ Vec2 slack(const Robot& robot) noexcept {
   constexpr float gain = 2.0F;
   const Params& p = robot.params;
   if (!robot.is_needed_near()) return {};
-  return strings(robot, p.pull_start, p.longest_edge - p.pull_start) * gain;
+  return strings(robot, p.pull_start / robot.stretched(1.0F), (p.longest_edge - p.pull_start) / robot.stretched(1.0F)) *
+         gain;
 }
 
 // Room for others: spares and robots of the tree that are near, and the lines of sight of their edges.
@@ -107,6 +108,17 @@ Vec2 make_room(const Robot& robot, float width) noexcept {
     if (up < 0) continue;
     const Vec2 along = unit(table.position(up) - table.position(k));
     push(nearest_on_segment(table.position(k), table.position(up)), width, left_of(along));
+  }
+  // With k paths my neighbours in the tree are to hear each other past me.
+  if (p.line_of_sight && p.link_redundancy > 1 && robot.self.role != Role::spare) {
+    Rows mine = robot.children;
+    if (robot.parent >= 0) mine.set(robot.parent, true);
+    mine.for_each([&](int i) {
+      mine.for_each([&](int k) {
+        const Vec2 along = unit(robot.position(k) - robot.position(i));
+        if (i < k) push(nearest_on_segment(robot.position(i), robot.position(k)), sight_width, left_of(along));
+      });
+    });
   }
   // And at a place where others are charged.
   constexpr float of_place = 0.4F;  // C
@@ -241,13 +253,18 @@ void limit_motion(const Robot& robot, Guard& guard) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
     // A half-plane that allows full speed is not worth asking for.
-    const bool is_free = table.age(k) <= robot.hidden_after() && 0.5F * (p.longest_edge - d) * p.guard_rate >= 1.0F;
+    // With k paths an edge of the tree has a k-th of the length, unless it is longer already.
+    const bool in_tree = robot.self.role != Role::spare && robot.is_tree(k) &&
+                         (k == robot.parent || robot.said(k).parent == robot.self.id);
+    const float end =
+        in_tree ? std::max(p.longest_edge / robot.stretched(1.0F), std::min(d, p.longest_edge)) : p.longest_edge;
+    const bool is_free = table.age(k) <= robot.hidden_after() && 0.5F * (end - d) * p.guard_rate >= 1.0F;
     if (!is_free && is_promised(robot, k)) {
       // Of a silent one that may have driven on I stay at least as near as I am; beyond where signals fade I come
       // nearer.
       constexpr float near = 0.77F;  // C
       const float away = strayed(robot, k);
-      float longest = p.longest_edge - table.spread() - away;
+      float longest = end - table.spread() - away;
       if (away > 0.0F) longest = std::max(longest, std::min(d, near));
       guard.add(table.position(k), longest, p.guard_rate);
     }

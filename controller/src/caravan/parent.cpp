@@ -16,6 +16,7 @@ constexpr int most_rest = 15;          // rounds
 // Up to where an edge may grow it costs its length; then the more, the sooner it will hold somebody back.
 float stretch(const Robot& robot, float d) noexcept {
   const Params& p = robot.params;
+  d = robot.stretched(d);
   const float start = robot.self.pinned ? pinned_edge : robot.is_wanted() ? p.need_distance - soon : relaxed;
   return steep * std::max(0.0F, (d - start) / (p.longest_edge - start));
 }
@@ -26,7 +27,7 @@ bool reaches_target_from(const Robot& robot, int k) noexcept {
   if (target == nullptr) return false;
   for (const Token& t : robot.self.known())
     if (t.holder == robot.table().id(k) && t.name != root_name && t.located)
-      return distance(t.place, *target) < robot.params.need_distance;
+      return robot.stretched(distance(t.place, *target)) < robot.params.need_distance;
   return false;
 }
 

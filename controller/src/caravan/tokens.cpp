@@ -218,7 +218,8 @@ int way_of_news(const Robot& robot, const Token& t) noexcept {
 bool is_silent(const Robot& robot, const Token& t) noexcept {
   const Params& p = robot.params;
   if (t.holder == put_off)
-    return robot.self.call.source == nobody && t.age > p.rounds(p.retry_drives) + whole(p.takeover_spread * norm(t.place));
+    return robot.self.call.source == nobody &&
+           t.age > p.rounds(p.retry_drives) + whole(p.takeover_spread * norm(t.place));
   const int late = t.name == root_name ? 0 : std::max(2 * robot.self.news_gap / per_round, way_of_news(robot, t));
   return t.age > 2 * robot.liveness() + late + whole(p.takeover_rounds + p.takeover_spread * norm(t.place));
 }
@@ -304,8 +305,8 @@ void watch_progress(Robot& robot, Vec2 v) noexcept {
   self.effort = std::max(0.0F, self.effort + dot(v, unit(t->place)) * p.way_in_a_round() * rounds);
   if (self.call.source == nobody) self.stuck_rounds = 0;
   else robot.add_elapsed(self.stuck_rounds);
-  // As long as a spare takes to come from the root, and then some; the farthest target takes most robots, and its worker
-  // loses patience first.
+  // As long as a spare takes to come from the root, and then some; the farthest target takes most robots, and its
+  // worker loses patience first.
   const float patience = from_fixed(self.label) + p.give_up_drives * (1.0F + 1.0F / (1.0F + way));
   const bool waits_in_vain = self.stuck_rounds > p.rounds(patience);
   if (self.effort < in_vain && !waits_in_vain) return;

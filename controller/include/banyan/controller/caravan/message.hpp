@@ -100,7 +100,8 @@ template <class Visitor, class M> constexpr void visit_all(Visitor& visit, M& m)
   visit.flag("token_charging", "1: the place of `token` is one to be charged at", m.token.charging);
   visit.robot("token", "a token in turn: a target, by the robot first sent there, or 65534: the root; -1: none",
               m.token.name);
-  visit.robot("token_holder", "the robot that holds it, -1: it has been given up, 65534: put off until robots suffice", m.token.holder);
+  visit.robot("token_holder", "the robot that holds it, -1: it has been given up, 65534: put off until robots suffice",
+              m.token.holder);
   visit.number("token_beat", "the holder's count of rounds, modulo 65536", m.token.beat);
   visit.robot("told", "the neighbour that is told its place, -1: nobody", m.token.told);
   visit.coordinate("token_x", "the place relative to `told`, along the edge from the sender to it", m.token.x);

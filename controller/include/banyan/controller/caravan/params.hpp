@@ -11,6 +11,7 @@
 namespace banyan::caravan {
 
 struct Params : Machine {
+  int link_redundancy = 1;       // the mission's k: edges have a k-th of their length, and every k-th robot is heard
   float longest_edge = 0.95F;    // G: no link that matters outgrows it
   float need_distance = 0.825F;  // a longer edge is worth a spare
   float pull_start = 0.675F;     // a child farther than this tows its parent

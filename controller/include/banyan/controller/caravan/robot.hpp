@@ -40,6 +40,8 @@ struct Robot {
   }
   [[nodiscard]] Vec2 position(int k) const noexcept { return self.neighbors.position(k); }
   [[nodiscard]] float range(int k) const noexcept { return self.neighbors.range(k); }
+  // An edge's length, as if one path were enough: with k paths all neighbours of a robot are to hear each other.
+  [[nodiscard]] float stretched(float d) const noexcept { return d * static_cast<float>(params.link_redundancy); }
   [[nodiscard]] bool is_root() const noexcept { return self.newest.id == self.id; }
   [[nodiscard]] bool is_tree(int k) const noexcept { return said(k).role != Role::spare; }
   // Two clocks for silence. By chance a robot that is there is silent for so long once in a hundred thousand times;
@@ -58,7 +60,8 @@ struct Robot {
   [[nodiscard]] bool is_lost(int k) const noexcept { return self.neighbors.age(k) > liveness(); }
   // A worker at either end of the edge to my parent, or below me, still has to go on.
   [[nodiscard]] bool is_wanted() const noexcept {
-    return self.want > 0 || (parent >= 0 && said(parent).role == Role::worker && said(parent).want > 0);
+    return self.want > 0 || (parent >= 0 && said(parent).role == Role::worker && said(parent).want > 0) ||
+           (params.link_redundancy > 1 && parent >= 0 && stretched(range(parent)) > params.longest_edge);
   }
   // I hear it, but it does not hear me.
   [[nodiscard]] bool is_deaf(int k) const noexcept {

@@ -42,9 +42,9 @@ struct State : Message {
   bool seeks_charge = false;
   RobotId serves = nobody;  // the target that I hold, by its name
   bool was_sent = false;
-  bool unfit = false;            // it came no nearer to a target although nothing held it back
-  float nearest = not_counted;   // C: so near to its target it has come
-  float effort = 0.0F;           // and so far it should have come since, C
+  bool unfit = false;              // it came no nearer to a target although nothing held it back
+  float nearest = not_counted;     // C: so near to its target it has come
+  float effort = 0.0F;             // and so far it should have come since, C
   std::uint16_t stuck_rounds = 0;  // and for so long
   std::uint8_t token_count = 1;
   std::uint8_t turn = 0;  // which token is told next
