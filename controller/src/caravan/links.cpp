@@ -11,9 +11,7 @@ constexpr float largest_loss = 0.9F;
 constexpr float silent_by_chance = 1e-5F;  // so seldom a robot that is there is taken for gone
 constexpr float some_loss = 0.005F;        // from here on silences are learnt, and this long at first
 constexpr int first_silence = 32;
-constexpr int most_silence = 100;
 constexpr int forgets_after = 64;  // rounds, to be one shorter
-constexpr int forgets_burst_after = 16;
 
 // Nothing that could hide neighbour k is near the line between us.
 bool is_in_the_clear(const Robot& robot, int k) noexcept {
@@ -45,14 +43,6 @@ void measure_silence(Robot& robot) noexcept {
   ++self.round;
   if (loss > some_loss) self.assumed_silence = first_silence;
   else if (self.assumed_silence > 0 && self.round % forgets_after == 0) --self.assumed_silence;
-  if (self.burst > 0 && self.round % forgets_burst_after == 0) --self.burst;
-}
-
-void note_return(Robot& robot, int k, int silence) noexcept {
-  State& self = robot.self;
-  silence = std::min(silence - robot.elapsed_rounds, most_silence);
-  if (silence > robot.liveness() && robot.range(k) <= robot.params.longest_edge && is_in_the_clear(robot, k))
-    self.burst = static_cast<std::uint8_t>(silence);
 }
 
 void note_named(Robot& robot, int k, RobotId before) noexcept {

@@ -198,7 +198,6 @@ Vec2 to_post(Robot& robot) noexcept {
   Vec2 place = at;
   if (calls && m.leaving) place = at - unit(at) * (2.0F * robot.params.room);
   else if (up >= 0 && calls) place = at + (robot.position(up) - at) * 0.5F;
-  else if (up >= 0) place = at - unit(robot.position(up) - at) * past;
   else if (m.role == Role::root) place = at + unit(at) * past + left_of(unit(at)) * (2.0F * robot.params.room);
   return towards(robot, place);
 }
@@ -260,13 +259,7 @@ void limit_motion(const Robot& robot, Guard& guard) noexcept {
         in_tree ? std::max(p.longest_edge / robot.stretched(1.0F), std::min(d, p.longest_edge)) : p.longest_edge;
     const bool is_free = table.age(k) <= robot.hidden_after() && 0.5F * (end - d) * p.guard_rate >= 1.0F;
     if (!is_free && is_promised(robot, k)) {
-      // Of a silent one that may have driven on I stay at least as near as I am; beyond where signals fade I come
-      // nearer.
-      constexpr float near = 0.77F;  // C
-      const float away = strayed(robot, k);
-      float longest = end - table.spread() - away;
-      if (away > 0.0F) longest = std::max(longest, std::min(d, near));
-      guard.add(table.position(k), longest, p.guard_rate);
+      guard.add(table.position(k), end - table.spread() - strayed(robot, k), p.guard_rate);
     }
     // One that is pushed does not notice, and is wrong about places from then on.
     const bool pushes = (robot.said(k).role == Role::worker && !is_worker(robot)) || by_memory;

@@ -21,16 +21,6 @@ float stretch(const Robot& robot, float d) noexcept {
   return steep * std::max(0.0F, (d - start) / (p.longest_edge - start));
 }
 
-// Neighbour k is a worker, and from its target I reach mine.
-bool reaches_target_from(const Robot& robot, int k) noexcept {
-  const Vec2* const target = robot.self.target();
-  if (target == nullptr) return false;
-  for (const Token& t : robot.self.known())
-    if (t.holder == robot.table().id(k) && t.name != root_name && t.located)
-      return robot.stretched(distance(t.place, *target)) < robot.params.need_distance;
-  return false;
-}
-
 // Without the hazard.
 float cost(const Robot& robot, int k) noexcept {
   const Statement& m = robot.said(k);
@@ -45,7 +35,7 @@ float cost(const Robot& robot, int k) noexcept {
   // It is about to go, and would stay for me.
   if (m.role == Role::connector && m.children <= (robot.table().id(k) == robot.self.left ? 1 : 0)) c += p.robot_cost;
   if (m.leaving) c += costs_leaving;
-  if (m.role == Role::worker && robot.self.want > 0 && !reaches_target_from(robot, k)) c += costs_leaving;
+  if (m.role == Role::worker && robot.self.want > 0) c += costs_leaving;
   // The parent serves only me, and could go.
   if (robot.parent >= 0 && (is_parent || m.parent == robot.self.parent) && robot.serves_only_me(robot.parent))
     c += p.robot_cost;
@@ -54,12 +44,11 @@ float cost(const Robot& robot, int k) noexcept {
 
 // It is heard, tied to a root, not below me as far as I know, and in reach; without a parent I take what there is.
 bool is_candidate(const Robot& robot, int k) noexcept {
-  const float margin = robot.is_wanted() ? 0.05F : 0.02F;  // C: a longer edge would be at its end at once
   const Statement& m = robot.said(k);
   const bool bound = m.root.id != nobody && (m.parent != nobody || m.role == Role::root);
   const bool free = robot.parent < 0 || robot.is_lost(robot.parent);
   return robot.table().age(k) <= 1 && bound && !robot.is_deaf(k) && m.parent != robot.self.id &&
-         (free || robot.range(k) < robot.params.longest_edge - margin);
+         (free || robot.range(k) < robot.params.longest_edge);
 }
 
 }  // namespace

@@ -21,14 +21,12 @@ void file_heard(Robot& robot, const Inputs<Heard>& inputs) noexcept {
     const Message& m = *h.message;
     h.before = {};
     if (m.id == self.id || m.id == nobody) continue;
-    const int longest = table.returned();
     int k = table.file(m.id, h.position, h.before, carry);
     const bool is_new = k < 0;
     if (is_new)
       k = table.enter(m.id, h.position, matters(m.id, m),
                       [&](int j) { return matters(table.id(j), table.statements[static_cast<std::size_t>(j)]); });
     if (k < 0) continue;
-    if (table.returned() > longest) note_return(robot, k, table.returned());
     const RobotId named_before = h.before == Vec2{} ? nobody : robot.said(k).named;
     if (is_new) table.passes[static_cast<std::size_t>(k)] = 0;
     table.statements[static_cast<std::size_t>(k)] = static_cast<const Statement&>(m);
@@ -144,7 +142,7 @@ void add_to(Digest& digest, const State& s) noexcept {
       s.effort, s.stuck_rounds, s.token_count, s.turn, s.urgent_turn, s.news_gap, s.since_start, s.rests,
       s.other_rounds, s.rest_rounds, s.childless_rounds, s.left, s.ended.source, s.ended.count, s.ended_rounds,
       s.post_count, s.call_silence, s.unserved_rounds, s.expected_packets, s.missed_packets, s.loss_rounds,
-      s.assumed_silence, s.burst, s.round, s.neighbors.size());
+      s.assumed_silence, s.round, s.neighbors.size());
   for (int k = 0; k < s.neighbors.size(); ++k) {
     add(s.neighbors.id(k), s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k),
         s.neighbors.passes[static_cast<std::size_t>(k)]);

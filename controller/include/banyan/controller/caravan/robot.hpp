@@ -47,11 +47,11 @@ struct Robot {
   // Two clocks for silence. By chance a robot that is there is silent for so long once in a hundred thousand times;
   // packets may also get lost many in a row. Beyond that it is not believed any more, and is replaced.
   [[nodiscard]] int liveness() const noexcept {
-    return std::max<int>({whole(params.liveness_rounds), self.loss_rounds, self.burst});
+    return std::max<int>(whole(params.liveness_rounds), self.loss_rounds);
   }
   // For so long I stay near a silent robot to which I have promised it.
   [[nodiscard]] int lease() const noexcept {
-    return std::max(liveness(), 2 * std::max<int>(self.assumed_silence, self.burst));
+    return std::max<int>(liveness(), 2 * self.assumed_silence);
   }
   // And in the tree, where the other end may have gone to look for me, or is to be met where it died.
   [[nodiscard]] int tree_lease() const noexcept { return std::max(lease(), params.rounds(params.pursue_drives)); }

@@ -66,7 +66,6 @@ struct State : Message {
   float missed_packets = 0.0F;    // and of them those that were not
   std::uint16_t loss_rounds = 0;  // for so long a robot that is there may be silent by chance; 0: no packets get lost
   std::uint8_t assumed_silence = 0;  // packets get lost: so long a promise may have to last, less as time goes by
-  std::uint8_t burst = 0;            // the longest silence that ended of late and that chance does not explain
   std::uint16_t round = 0;
   std::uint16_t since_start = 0;
   std::array<Vec2, most_corners> corners{};  // points of obstacles that were passed; the first `corner_count`
