@@ -87,12 +87,8 @@ float hazard(const Robot& robot, int k) noexcept {
   const Table& table = robot.table();
   if (!robot.params.line_of_sight) return 0.0F;
   float share = 1.0F;  // of the clearance that is left
-  // A parent that serves only me, and is needed at a post near by, would go out of the line to its own.
-  const int up = robot.parent;
-  const bool goes =
-      robot.is_needed_near() && up >= 0 && robot.said(up).parent == table.id(k) && robot.serves_only_me(up);
   for (int j = 0; j < table.size(); ++j)
-    if (j != k && !(goes && j == up) && !robot.is_lost(j))
+    if (j != k && !robot.is_lost(j))
       share =
           std::min(share, distance_to_segment(table.position(j), Vec2{}, table.position(k)) / robot.params.clearance);
   for (std::size_t j = 0; j < robot.self.corner_count; ++j)

@@ -15,8 +15,8 @@ struct Params : Machine {
   float longest_edge = 0.95F;    // G: no link that matters outgrows it
   float need_distance = 0.825F;  // a longer edge is worth a spare
   float pull_start = 0.675F;     // a child farther than this tows its parent
-  float late_start = 0.90F;      // the root and junctions only from here on
-  float pull_width = 0.1F;
+  float post_distance = 0.90F;   // a longer edge that waits for a spare is a post
+  float pull_width = 0.1F;       // and pulls with full strength so much later
   float tension_gain = 0.4F;
   float robot_cost = 1.0F;        // a robot more in the tree costs as much as a way so much longer
   float hysteresis = 0.2F;        // a new parent has to be so much cheaper
