@@ -120,12 +120,6 @@ TEST(CaravanParent, AWorkerThatGoesElsewhereIsNoParentOfOneThatHasFarToGo) {
   EXPECT_EQ(world.said(2).parent, 3);
 }
 
-TEST(CaravanParent, AWorkerWhoseTargetIsInReachOfMineIsMyParent) {
-  TinyWorld world = two_workers({2.0F, 0}, {2.6F, 0});
-  world.steps(60);
-  EXPECT_EQ(world.said(2).parent, 1);
-}
-
 TEST(CaravanParent, ToOneThatHasArrivedAnyWorkerWillDo) {
   TinyWorld world = two_workers({0.6F, -2.0F}, {1.2F, 0});
   world.steps(60);

@@ -28,6 +28,7 @@ TEST(CaravanPosts, ASpareOutOfSightComesAlongTheGradientAndJoins) {
 
 TEST(CaravanPosts, WithoutACallItStaysWhereItIs) {
   TinyWorld world = outpost(6000.0F);
+  world.hold(0);
   world.steps(1000);
   EXPECT_GT(world.to(2, far_target), 0.8F);
   EXPECT_LE(world.between(1, 2), longest_edge + 1e-3F) << "held by its promise";

@@ -92,8 +92,9 @@ TEST(CaravanTokens, OfTwoThatServeATargetTheOneThatIsThereStays) {
 
 TEST(CaravanTokens, WhoWasSentKeepsItsTargetWhileNobodyIsThere) {
   TinyWorld world = camp();
-  world.send(1, {0.7F, 2.5F});
-  world.hold_all();
+  world.send(1, {0.7F, 2.5F});  // the others do not move, so that it gets only as far as its promises allow
+  for (std::size_t i = 0; i < world.size(); ++i)
+    if (i != 1) world.hold(i);
   world.steps(60);
   world.jam(1);
   world.until(600, [&] { return world.holders(1).size() == 2; });
@@ -163,6 +164,59 @@ TEST(CaravanTokens, WhoIsSentAgainServesAgain) {
   EXPECT_EQ(world.holders(1), std::vector<std::size_t>{1});
   EXPECT_LE(world.to(1, {0.5F, 0.5F}), 0.1F);
   EXPECT_EQ(world.of_role(Role::spare).size(), 3U) << "nobody else goes there, nor to the place before";
+}
+
+// The root stays, and nobody else is there to go between: it waits at the end of its promise.
+TEST(CaravanTokens, AWorkerThatWaitsForSparesInVainPutsItsTargetOffAndTriesAgain) {
+  TinyWorld world({{0, 0}, {0.5F, 0}}, {1});
+  world.send(1, {3.0F, 0});
+  world.hold(0);
+  const int drive = world.params.rounds(1.0F);
+  const int waited = world.until(20 * drive, [&] { return world.holders(1).empty(); });
+  EXPECT_GT(waited, 5 * drive);
+  EXPECT_LT(waited, 9 * drive);
+  ASSERT_TRUE(world.holders(1).empty());
+  bool told = false;
+  for (int t = 0; t < 4; ++t) {
+    world.step();
+    told |= world.said(1).token.name == 1 && world.said(1).token.holder == put_off;
+  }
+  EXPECT_TRUE(told);
+  EXPECT_EQ(world.role(1), Role::spare);
+  const int paused = world.until(40 * drive, [&] { return !world.holders(1).empty(); });
+  EXPECT_GT(paused, 11 * drive);
+  EXPECT_LT(paused, 14 * drive);
+}
+
+TEST(CaravanTokens, AWorkerWhoseMotorsFailLeavesItsTargetToAnother) {
+  TinyWorld world = camp();
+  world.send(1, {0.7F, 0.9F});
+  world.hold(1);
+  world.until(1000, [&] { return world.holders(1) != std::vector<std::size_t>{1}; });
+  world.until(1000, [&] { return !world.holders(1).empty(); });
+  world.steps(300);
+  const auto holders = world.holders(1);
+  ASSERT_EQ(holders.size(), 1U);
+  EXPECT_NE(holders[0], 1U);
+  EXPECT_LE(world.to(holders[0], {0.7F, 0.9F}), 0.1F);
+}
+
+// The holder dies with the only one that it has told.
+TEST(CaravanTokens, WhoHearsBothEndsKnowsThePlaceThatOneIsTold) {
+  TinyWorld world = camp();
+  world.hold_all();
+  world.until(20, [&] { return world.said(1).token.told != nobody && world.said(1).token.name == 1; });
+  const RobotId told = world.said(1).token.told;
+  ASSERT_NE(told, nobody);
+  world.step();
+  for (std::size_t i = 0; i < world.size(); ++i) world.hold(i, false);
+  world.kill(1);
+  if (told != 0) world.kill(told);
+  else world.jam(0);
+  world.until(1000, [&] { return !world.holders(1).empty(); });
+  world.steps(300);
+  ASSERT_EQ(world.holders(1).size(), 1U);
+  EXPECT_LE(world.to(world.holders(1)[0], target_place), 0.15F);
 }
 
 }  // namespace
