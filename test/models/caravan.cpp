@@ -170,11 +170,6 @@ void caravan_order_step(int me, Place* self, int id, const Place* heard, const P
   if (parent != nullptr && !is_parent)
     Bench::remember(self->parent, {0, likes == cheapest ? 0.9F : 0.1F}, statement_of(*parent, self->parent),
                     likes == cheapest ? 3 : 0);
-  if (likes == deaf && id >= 0) {
-    Bench::remember(id, near, statement_of(*heard, id), 0);
-    State& s = Bench::self();
-    s.neighbors.passes[static_cast<std::size_t>(s.neighbors.find(to_id(id)))] = 100;
-  }
   if (id >= 0)
     static_cast<Statement&>(Bench::put(id, likes != far_away || is_parent ? near : Vec2{0.94F, 0})) =
         statement_of(*heard, id);

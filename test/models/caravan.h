@@ -27,7 +27,6 @@ int caravan_compare(const struct Place* a, const struct Place* b);
 enum Likes {
   far_away,
   cheapest,  /* near, and the present parent is silent */
-  deaf,      /* it does not hear me */
 };
 void caravan_order_step(int me, struct Place* self, int id, const struct Place* heard, const struct Place* parent, int likes);
 /* The parent has been silent until it was forgotten. */

@@ -135,7 +135,7 @@ active proctype swarm() {
     choose(me);
     if
     :: choose_other(from); choose_copy(copy); act = HEAR;
-       if :: likes = 0 :: likes = 1 :: likes = 2 fi
+       if :: likes = 0 :: likes = 1 fi
     :: act = COUNT
     :: act = LOSE
     :: act = CLAIM

@@ -45,19 +45,6 @@ void measure_silence(Robot& robot) noexcept {
   else if (self.assumed_silence > 0 && self.round % forgets_after == 0) --self.assumed_silence;
 }
 
-void note_named(Robot& robot, int k, RobotId before) noexcept {
-  const Statement& m = robot.said(k);
-  const RobotId me = robot.self.id;
-  std::uint8_t& passes = robot.table().passes[static_cast<std::size_t>(k)];
-  if (m.named == me || m.parent == me || m.other == me) {
-    passes = 0;
-    return;
-  }
-  // Round and round from the one that it named before: how far to me, and how far to the one that it names now.
-  const auto way = [&](RobotId id) { return static_cast<RobotId>(id - before - 1); };
-  if (m.named != nobody && before != nobody && way(me) < way(m.named) && passes < UINT8_MAX) ++passes;
-}
-
 // One that is hidden has not heard me either, and stays; one that is out of reach for a burst may drive on.
 float strayed(const Robot& robot, int k) noexcept {
   const int rounds = robot.table().age(k) - robot.hidden_after();
@@ -72,7 +59,6 @@ bool is_promised(const Robot& robot, int k) noexcept {
   const bool named = id == self.parent || id == self.other || m.parent == self.id || m.other == self.id;
   const bool unbound =
       (m.parent == nobody && m.role != Role::root) || (self.parent == nobody && self.role != Role::root);
-  if (robot.is_gap(k)) return true;
   if (!named) return unbound && robot.table().age(k) <= robot.lease();
   const bool in_tree = self.role != Role::spare && m.role != Role::spare && (id == self.parent || m.parent == self.id);
   return robot.table().age(k) <= (in_tree ? robot.tree_lease() : robot.lease());

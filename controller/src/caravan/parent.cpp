@@ -7,7 +7,6 @@ namespace {
 
 constexpr float steep = 3.0F;          // what the longest edge costs beyond its length, C
 constexpr float soon = 0.075F;         // before an edge is worth a spare it begins to cost more, C
-constexpr float pinned_edge = 0.3F;    // at a corner edges are to be short
 constexpr float relaxed = 0.93F;       // an edge that need not grow any more is good up to here
 constexpr float costs_leaving = 4.0F;  // it goes its own way and cannot be towed, or runs low
 constexpr float costs_silence = 5.0F;  // the parent is hidden, or dead
@@ -17,7 +16,7 @@ constexpr int most_rest = 15;          // rounds
 float stretch(const Robot& robot, float d) noexcept {
   const Params& p = robot.params;
   d = robot.stretched(d);
-  const float start = robot.self.pinned ? pinned_edge : robot.is_wanted() ? p.need_distance - soon : relaxed;
+  const float start = robot.is_wanted() ? p.need_distance - soon : relaxed;
   return steep * std::max(0.0F, (d - start) / (p.longest_edge - start));
 }
 
@@ -28,7 +27,7 @@ float cost(const Robot& robot, int k) noexcept {
   const float d = robot.range(k);
   const bool is_parent = k == robot.parent;
   float c = d + stretch(robot, d);
-  if (robot.table().age(k) > robot.hidden_after() || robot.is_deaf(k)) c += costs_silence;
+  if (robot.table().age(k) > robot.hidden_after()) c += costs_silence;
   if (is_newer(robot.self.newest, m.root)) c += costs_silence;  // it has not heard of the new root
   c += from_fixed(m.label);
   if (m.role == Role::spare) c += p.robot_cost * static_cast<float>(m.hops);
@@ -47,7 +46,7 @@ bool is_candidate(const Robot& robot, int k) noexcept {
   const Statement& m = robot.said(k);
   const bool bound = m.root.id != nobody && (m.parent != nobody || m.role == Role::root);
   const bool free = robot.parent < 0 || robot.is_lost(robot.parent);
-  return robot.table().age(k) <= 1 && bound && !robot.is_deaf(k) && m.parent != robot.self.id &&
+  return robot.table().age(k) <= 1 && bound && m.parent != robot.self.id &&
          (free || robot.range(k) < robot.params.longest_edge);
 }
 

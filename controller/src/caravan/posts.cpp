@@ -13,8 +13,6 @@ bool has_post(Robot& robot) noexcept {
   State& self = robot.self;
   const bool needs = self.role != Role::spare && robot.parent >= 0 && robot.is_wanted() &&
                      robot.stretched(robot.range(robot.parent)) > robot.params.post_distance;
-  // A part of the network that does not hear me: somebody else may be heard.
-  if (robot.has_gap) return true;
   if (self.leaving && self.role != Role::spare) return true;
   if (!needs) self.unserved_rounds = 0;
   else robot.add_elapsed(self.unserved_rounds);

@@ -53,7 +53,7 @@ int heir(const Robot& robot) noexcept {
   const Table& table = robot.table();
   return least_of(table.size(), beside, [&](int k) {
     const Statement& m = robot.said(k);
-    const bool may = table.age(k) == 0 && !m.leaving && m.role == Role::spare && !robot.is_deaf(k);
+    const bool may = table.age(k) == 0 && !m.leaving && m.role == Role::spare;
     return may ? table.range(k) : not_counted;
   });
 }

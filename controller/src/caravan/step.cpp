@@ -22,19 +22,15 @@ void file_heard(Robot& robot, const Inputs<Heard>& inputs) noexcept {
     h.before = {};
     if (m.id == self.id || m.id == nobody) continue;
     int k = table.file(m.id, h.position, h.before, carry);
-    const bool is_new = k < 0;
-    if (is_new)
+    if (k < 0)
       k = table.enter(m.id, h.position, matters(m.id, m),
                       [&](int j) { return matters(table.id(j), table.statements[static_cast<std::size_t>(j)]); });
     if (k < 0) continue;
-    const RobotId named_before = h.before == Vec2{} ? nobody : robot.said(k).named;
-    if (is_new) table.passes[static_cast<std::size_t>(k)] = 0;
     table.statements[static_cast<std::size_t>(k)] = static_cast<const Statement&>(m);
-    note_named(robot, k, named_before);
   }
   const auto keeps = [&](int k) { return table.id(k) == self.parent || is_promised(robot, k); };
   for (int k = 0; (k = table.remove_next(k, carry, robot.liveness(), keeps)) >= 0;)
-    close_gap(table.statements, k, table.size() + 1), close_gap(table.passes, k, table.size() + 1);
+    close_gap(table.statements, k, table.size() + 1);
 }
 
 void index_neighbors(Robot& robot) noexcept {
@@ -52,7 +48,6 @@ void index_neighbors(Robot& robot) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     const Statement& m = robot.said(k);
     if (m.parent == self.id && m.role != Role::spare) robot.children.set(k, true), ++robot.child_count;
-    robot.has_gap |= robot.is_gap(k);
   }
 }
 
@@ -107,7 +102,6 @@ Output<Message> step(const Params& params, State& state, const Inputs<Heard>& in
   tell_corner(robot);
   keep_up(robot);
   call_spares(robot);
-  state.named = state.neighbors.next_heard(state.named, robot.liveness());
   const Vec2 wish = clamped(goal(robot), 1.0F);
   Guard guard;
   limit_motion(robot, guard);
@@ -144,8 +138,7 @@ void add_to(Digest& digest, const State& s) noexcept {
       s.post_count, s.call_silence, s.unserved_rounds, s.expected_packets, s.missed_packets, s.loss_rounds,
       s.assumed_silence, s.round, s.neighbors.size());
   for (int k = 0; k < s.neighbors.size(); ++k) {
-    add(s.neighbors.id(k), s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k),
-        s.neighbors.passes[static_cast<std::size_t>(k)]);
+    add(s.neighbors.id(k), s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k));
     Message said;
     static_cast<Statement&>(said) = s.neighbors.statements[static_cast<std::size_t>(k)];
     visit_fields(visit, said);

@@ -177,7 +177,6 @@ void follow_root(Robot& robot) noexcept {
     if (!is_new_root && m.root != self.newest) continue;
     const bool advances = root.holder != m.root.id || is_news(m.beat, root.beat, root.age);
     if (!advances && m.id != m.root.id) continue;  // most tell nothing new
-    if (robot.is_deaf(robot.table().find(m.id))) continue;
     if (is_new_root) self.newest = m.root;
     if (advances) root.holder = m.root.id, root.beat = m.beat, root.age = 0;
     if (m.id == m.root.id) root.place = h.position, root.located = true;

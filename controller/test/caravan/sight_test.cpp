@@ -31,6 +31,7 @@ TEST(CaravanSight, TheParentKeepsACornerOutOfTheEdgeThatOnlyItsChildHasSeen) {
 TEST(CaravanSight, WithTwoPathsAnyRobotMayDie) {
   TinyWorld world({{0, 0}, {0.2F, 0}, {-0.2F, 0.1F}, {-0.2F, -0.1F}, {0, 0.2F}, {0, -0.2F}, {-0.3F, 0}}, {1});
   world.params.link_redundancy = 2;
+  world.hold(0);
   world.send(1, {1.5F, 0});
   EXPECT_LT(world.until(1000, [&] { return world.to(1, {1.5F, 0}) <= 0.1F; }), 500);
   world.steps(200);

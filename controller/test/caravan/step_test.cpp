@@ -27,7 +27,7 @@ Message babble(Dice& dice, std::size_t robots) {
   Message m;
   m.role = static_cast<Role>(dice.below(4));
   for (bool* flag : {&m.pinned, &m.leaving, &m.token.reached, &m.token.charging}) *flag = dice.comes_up(0.5F);
-  for (RobotId* id : {&m.parent, &m.named, &m.other, &m.call.source, &m.token.holder, &m.token.told}) *id = anybody();
+  for (RobotId* id : {&m.parent, &m.other, &m.call.source, &m.token.holder, &m.token.told}) *id = anybody();
   m.id = word(robots);
   m.root = {word(3), anybody()};
   m.beat = word(65536);
@@ -103,7 +103,6 @@ struct Sensing {
     root.id = 9;
     root.role = Role::root;
     root.root = {1, 9};
-    root.named = 1;
     make_sane();
   }
   void make_sane() {

@@ -18,8 +18,6 @@ void add_to(Digest& digest, const State& state) noexcept;  // every field that c
 // ---- links.cpp: principle 1 ----
 
 void measure_silence(Robot& robot) noexcept;
-// Neighbour k, heard now and a round ago, may have named me as one that it hears, or passed me over since.
-void note_named(Robot& robot, int k, RobotId before) noexcept;
 // How far neighbour k may have driven since it was heard, C; 0 where silence is no loss.
 [[nodiscard]] float strayed(const Robot& robot, int k) noexcept;
 // The link to it is to hold: I obey its half-plane, and remember it however silent it is.

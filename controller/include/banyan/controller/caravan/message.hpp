@@ -36,7 +36,6 @@ struct Statement {
   bool pinned = false;      // a corner is about to cut the edge to its parent, and somebody below has to go on
   bool leaving = false;     // it runs low, and has to be relieved; a spare: it has too little charge to join
   RobotId parent = nobody;  // the upper end of the link that ties it to the others
-  RobotId named = nobody;   // a neighbour that it hears, by ascending ids round and round
   RobotId other = nobody;   // the parent that it had, until that promise has ended
   Root root;
   Serial beat = 0;            // its place in the order: the root's count of rounds, less one a hop at least
@@ -84,7 +83,6 @@ template <class Visitor, class M> constexpr void visit_all(Visitor& visit, M& m)
   visit.flag("leaving", "1: it has to be relieved; a spare: it has too little charge to join", m.leaving);
   visit.robot("id", "of the sender", m.id);
   visit.robot("parent", "the upper end of the link that ties it to the others, -1: none", m.parent);
-  visit.robot("named", "a neighbour that it hears, by ascending ids round and round, -1: none", m.named);
   visit.robot("other", "the parent that it had, until that promise has ended, -1: none", m.other);
   visit.number("root_sequence", "of the root's token, modulo 65536; 0: no root is known", m.root.sequence);
   visit.robot("root", "the robot that holds that token, -1: none is known", m.root.id);

@@ -30,8 +30,7 @@ struct Robot {
   int other = -1;
   Rows children{};  // robots of the tree that name me as their parent
   int child_count = 0;
-  bool has_gap = false;  // one of the table does not hear me, and nothing else joins its part to mine
-  int caller = -1;       // of a spare: the neighbour through which the nearest post is reached
+  int caller = -1;  // of a spare: the neighbour through which the nearest post is reached
 
   [[nodiscard]] Table& table() noexcept { return self.neighbors; }
   [[nodiscard]] const Table& table() const noexcept { return self.neighbors; }
@@ -46,13 +45,9 @@ struct Robot {
   [[nodiscard]] bool is_tree(int k) const noexcept { return said(k).role != Role::spare; }
   // Two clocks for silence. By chance a robot that is there is silent for so long once in a hundred thousand times;
   // packets may also get lost many in a row. Beyond that it is not believed any more, and is replaced.
-  [[nodiscard]] int liveness() const noexcept {
-    return std::max<int>(whole(params.liveness_rounds), self.loss_rounds);
-  }
+  [[nodiscard]] int liveness() const noexcept { return std::max<int>(whole(params.liveness_rounds), self.loss_rounds); }
   // For so long I stay near a silent robot to which I have promised it.
-  [[nodiscard]] int lease() const noexcept {
-    return std::max<int>(liveness(), 2 * self.assumed_silence);
-  }
+  [[nodiscard]] int lease() const noexcept { return std::max<int>(liveness(), 2 * self.assumed_silence); }
   // And in the tree, where the other end may have gone to look for me, or is to be met where it died.
   [[nodiscard]] int tree_lease() const noexcept { return std::max(lease(), params.rounds(params.pursue_drives)); }
   // A silence that lost packets do not explain: something stands between us.
@@ -63,13 +58,6 @@ struct Robot {
     return self.want > 0 || (parent >= 0 && said(parent).role == Role::worker && said(parent).want > 0) ||
            (params.link_redundancy > 1 && parent >= 0 && stretched(range(parent)) > params.longest_edge);
   }
-  // I hear it, but it does not hear me.
-  [[nodiscard]] bool is_deaf(int k) const noexcept {
-    constexpr int often = 2;
-    return k >= 0 && self.neighbors.passes[static_cast<std::size_t>(k)] >= often;
-  }
-  // And nothing else joins its part of the network to mine.
-  [[nodiscard]] bool is_gap(int k) const noexcept { return is_deaf(k) && !is_lost(k) && said(k).root != self.newest; }
   // Neighbour k, as I am its child, has no other one.
   [[nodiscard]] bool serves_only_me(int k) const noexcept {
     return said(k).role == Role::connector && said(k).children <= 1;

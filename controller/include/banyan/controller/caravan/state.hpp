@@ -15,8 +15,6 @@ namespace banyan::caravan {
 
 struct Table : Neighbors {
   std::array<Statement, neighbor_capacity> statements{};
-  // How often in a row it has passed me over as one that it hears.
-  std::array<std::uint8_t, neighbor_capacity> passes{};
 };
 
 // The root's token, or a target's: a name, a holder, a count and a place.
