@@ -25,7 +25,6 @@ void keep_up(Robot& robot) noexcept {
   const Serial behind = advanced(m.beat, -1);
   if (m.root != self.root ? is_newer(m.root, self.root) : is_newer(behind, self.beat)) {
     self.root = m.root;
-    if (is_newer(self.root, self.newest)) self.newest = self.root;
     self.beat = behind;
   }
 }
