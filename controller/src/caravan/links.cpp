@@ -60,8 +60,7 @@ bool is_promised(const Robot& robot, int k) noexcept {
   const bool unbound =
       (m.parent == nobody && m.role != Role::root) || (self.parent == nobody && self.role != Role::root);
   if (!named) return unbound && robot.table().age(k) <= robot.lease();
-  const bool in_tree = self.role != Role::spare && m.role != Role::spare && (id == self.parent || m.parent == self.id);
-  return robot.table().age(k) <= (in_tree ? robot.tree_lease() : robot.lease());
+  return robot.table().age(k) <= (robot.is_edge(k) ? robot.tree_lease() : robot.lease());
 }
 
 }  // namespace banyan::caravan

@@ -251,16 +251,13 @@ void limit_motion(const Robot& robot, Guard& guard) noexcept {
   const bool by_memory = robot.self.serves != nobody && robot.self.serves != robot.self.id;
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
-    // A half-plane that allows full speed is not worth asking for.
     // With k paths an edge of the tree has a k-th of the length, unless it is longer already.
-    const bool in_tree = robot.self.role != Role::spare && robot.is_tree(k) &&
-                         (k == robot.parent || robot.said(k).parent == robot.self.id);
-    const float end =
-        in_tree ? std::max(p.longest_edge / robot.stretched(1.0F), std::min(d, p.longest_edge)) : p.longest_edge;
+    const float end = robot.is_edge(k) ? std::max(p.longest_edge / robot.stretched(1.0F), std::min(d, p.longest_edge))
+                                       : p.longest_edge;
+    // A half-plane that allows full speed is not worth asking for.
     const bool is_free = table.age(k) <= robot.hidden_after() && 0.5F * (end - d) * p.guard_rate >= 1.0F;
-    if (!is_free && is_promised(robot, k)) {
+    if (!is_free && is_promised(robot, k))
       guard.add(table.position(k), end - table.spread() - strayed(robot, k), p.guard_rate);
-    }
     // One that is pushed does not notice, and is wrong about places from then on.
     const bool pushes = (robot.said(k).role == Role::worker && !is_worker(robot)) || by_memory;
     if (pushes && table.age(k) == 0 && d < touching + 0.05F && d > 0.0F)

@@ -43,6 +43,10 @@ struct Robot {
   [[nodiscard]] float stretched(float d) const noexcept { return d * static_cast<float>(params.link_redundancy); }
   [[nodiscard]] bool is_root() const noexcept { return self.newest.id == self.id; }
   [[nodiscard]] bool is_tree(int k) const noexcept { return said(k).role != Role::spare; }
+  // An edge of the tree joins neighbour k and me.
+  [[nodiscard]] bool is_edge(int k) const noexcept {
+    return self.role != Role::spare && is_tree(k) && (self.neighbors.id(k) == self.parent || said(k).parent == self.id);
+  }
   // Two clocks for silence. By chance a robot that is there is silent for so long once in a hundred thousand times;
   // packets may also get lost many in a row. Beyond that it is not believed any more, and is replaced.
   [[nodiscard]] int liveness() const noexcept { return std::max<int>(whole(params.liveness_rounds), self.loss_rounds); }
@@ -53,7 +57,7 @@ struct Robot {
   // A silence that lost packets do not explain: something stands between us.
   [[nodiscard]] int hidden_after() const noexcept { return std::max(2, self.loss_rounds * 3 / 5); }
   [[nodiscard]] bool is_lost(int k) const noexcept { return self.neighbors.age(k) > liveness(); }
-  // A worker at either end of the edge to my parent, or below me, still has to go on.
+  // A worker at either end of the edge to my parent, or below me, still has to go on; or it is too long for k paths.
   [[nodiscard]] bool is_wanted() const noexcept {
     return self.want > 0 || (parent >= 0 && said(parent).role == Role::worker && said(parent).want > 0) ||
            (params.link_redundancy > 1 && parent >= 0 && stretched(range(parent)) > params.longest_edge);
