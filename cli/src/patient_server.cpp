@@ -103,8 +103,8 @@ class Crowd final : public httplib::TaskQueue {
   void enter(socket_t socket) {
     const std::lock_guard lock(mutex_);
     // By arrival: a thread may pause between taking its visitor and coming here.
-    const auto later = std::ranges::find_if(staying_, [](const Visitor& v) { return v.arrival > taken_as; });
-    staying_.insert(later, {socket, taken_as});
+    const auto later = std::ranges::find_if(staying_, [](const Visitor& v) { return v.arrival > taken_as(); });
+    staying_.insert(later, {socket, taken_as()});
     if (ending_) send_away();
     else make_room();
   }
@@ -134,7 +134,7 @@ class Crowd final : public httplib::TaskQueue {
       if (waiting_.empty()) return;
       const auto visit = std::move(waiting_.front());
       waiting_.pop_front();
-      taken_as = arrivals_++;
+      taken_as() = arrivals_++;
       lock.unlock();
       visit();
       lock.lock();
@@ -156,7 +156,10 @@ class Crowd final : public httplib::TaskQueue {
     socket_t socket;
     std::uint64_t arrival;
   };
-  static thread_local std::uint64_t taken_as;  // arrival of this thread's visitor
+  static std::uint64_t& taken_as() {  // arrival of this thread's visitor
+    static thread_local std::uint64_t arrival = 0;
+    return arrival;
+  }
 
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -169,8 +172,6 @@ class Crowd final : public httplib::TaskQueue {
   bool no_more_ = false;  // threads than there are
   std::vector<std::thread> threads_;
 };
-
-thread_local std::uint64_t Crowd::taken_as = 0;
 
 PatientServer::PatientServer(std::chrono::milliseconds patience) : patience_(patience) {
   new_task_queue = [this] { return crowd_ = new Crowd; };  // httplib deletes it
