@@ -79,8 +79,7 @@ Vec2 slack(const Robot& robot) noexcept {
   constexpr float gain = 2.0F;
   const Params& p = robot.params;
   if (!robot.is_needed_near()) return {};
-  return strings(robot, p.pull_start / robot.stretched(1.0F), (p.longest_edge - p.pull_start) / robot.stretched(1.0F)) *
-         gain;
+  return strings(robot, robot.shortened(p.pull_start), robot.shortened(p.longest_edge - p.pull_start)) * gain;
 }
 
 // Room for others: spares and robots of the tree that are near, and the lines of sight of their edges.
@@ -252,8 +251,8 @@ void limit_motion(const Robot& robot, Guard& guard) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
     // With k paths an edge of the tree has a k-th of the length, unless it is longer already.
-    const float end = robot.is_edge(k) ? std::max(p.longest_edge / robot.stretched(1.0F), std::min(d, p.longest_edge))
-                                       : p.longest_edge;
+    const float end =
+        robot.is_edge(k) ? std::max(robot.shortened(p.longest_edge), std::min(d, p.longest_edge)) : p.longest_edge;
     // A half-plane that allows full speed is not worth asking for.
     const bool is_free = table.age(k) <= robot.hidden_after() && 0.5F * (end - d) * p.guard_rate >= 1.0F;
     if (!is_free && is_promised(robot, k))

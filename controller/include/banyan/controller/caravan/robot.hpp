@@ -41,6 +41,8 @@ struct Robot {
   [[nodiscard]] float range(int k) const noexcept { return self.neighbors.range(k); }
   // An edge's length, as if one path were enough: with k paths all neighbours of a robot are to hear each other.
   [[nodiscard]] float stretched(float d) const noexcept { return d * static_cast<float>(params.link_redundancy); }
+  // The other way: how long an edge may be where that length would do for one path.
+  [[nodiscard]] float shortened(float d) const noexcept { return d / static_cast<float>(params.link_redundancy); }
   [[nodiscard]] bool is_root() const noexcept { return self.newest.id == self.id; }
   [[nodiscard]] bool is_tree(int k) const noexcept { return said(k).role != Role::spare; }
   // An edge of the tree joins neighbour k and me.
