@@ -28,18 +28,35 @@ TEST(CaravanSight, TheParentKeepsACornerOutOfTheEdgeThatOnlyItsChildHasSeen) {
   }
 }
 
-TEST(CaravanSight, WithTwoPathsAnyRobotMayDie) {
+// Worker 1 has arrived, over edges of half the length.
+TinyWorld folded(bool line_of_sight) {
   TinyWorld world({{0, 0}, {0.2F, 0}, {-0.2F, 0.1F}, {-0.2F, -0.1F}, {0, 0.2F}, {0, -0.2F}, {-0.3F, 0}}, {1});
   world.params.link_redundancy = 2;
+  world.params.line_of_sight = line_of_sight;
   world.hold(0);
   world.send(1, {1.5F, 0});
-  EXPECT_LT(world.until(1000, [&] { return world.to(1, {1.5F, 0}) <= 0.1F; }), 500);
-  world.steps(200);
+  world.steps(700);
+  return world;
+}
+
+TEST(CaravanSight, WithTwoPathsAnyRobotMayDie) {
+  const TinyWorld world = folded(false);
+  EXPECT_LE(world.to(1, {1.5F, 0}), 0.1F);
   const auto way = world.way_up(1);
   ASSERT_GT(way.size(), 3U);
   EXPECT_LE(world.longest_on(way), 0.5F * longest_edge + 1e-3F);
   for (std::size_t k = 2; k < way.size(); ++k)
     EXPECT_LE(world.between(way[k - 2], way[k]), longest_edge + 2e-3F) << "without robot " << way[k - 1];
+}
+
+TEST(CaravanSight, WithTwoPathsNobodyHidesItsNeighboursFromEachOther) {
+  const TinyWorld world = folded(true);
+  const auto way = world.way_up(1);
+  ASSERT_GT(way.size(), 3U);
+  for (std::size_t k = 2; k < way.size(); ++k)
+    EXPECT_GT(distance_to_segment(world.places[way[k - 1]], world.places[way[k - 2]], world.places[way[k]]),
+              world.params.body_radius)
+        << "robot " << way[k - 1];
 }
 
 }  // namespace
