@@ -45,41 +45,45 @@ Vec2 tow(const Robot& robot) noexcept {
   return clamped(u, 1.0F);
 }
 
-// Once all below have arrived a connector moves until its longest other edge is stretched: so the slack of a chain
-// gathers at one end, where a robot becomes superfluous.
-Vec2 compaction(const Robot& robot) noexcept {
+// Comes nearer to one neighbour until the edge to another is stretched: so the slack of a chain gathers at one end.
+Vec2 gather(const Robot& robot, int to, int kept) noexcept {
   constexpr float stretched = 0.91F;  // C
   constexpr float width = 0.05F;
   constexpr float gain = 0.8F;
-  if (robot.parent < 0) return {};
+  if (to < 0 || kept < 0) return {};
+  const float slack = std::clamp((stretched - robot.stretched(robot.range(kept))) / width, -1.0F, 1.0F);
+  return unit(robot.position(slack > 0.0F ? to : kept)) * (std::abs(slack) * gain);
+}
+
+// Once all below have arrived slack gathers at the inner end, where a robot becomes superfluous.
+Vec2 compaction(const Robot& robot) noexcept {
   int longest = -1;
   robot.children.for_each([&](int k) {
     if (longest < 0 || robot.range(k) > robot.range(longest)) longest = k;
   });
-  if (longest < 0) return {};
-  const float slack = std::clamp((stretched - robot.stretched(robot.range(longest))) / width, -1.0F, 1.0F);
-  return (slack > 0.0F ? unit(robot.position(robot.parent)) : -unit(robot.position(longest))) * (slack * gain);
+  return gather(robot, robot.parent, longest);
 }
 
-Vec2 strings(const Robot& robot, float start, float width) noexcept {
-  Vec2 u;
-  const auto draw = [&](int k) { u += unit(robot.position(k)) * ramp(robot.range(k), start, width); };
-  if (robot.parent >= 0) draw(robot.parent);
-  robot.children.for_each(draw);
-  return u;
+// While a post waits in vain, at the end that calls.
+Vec2 slack(const Robot& robot) noexcept {
+  const Call& call = robot.self.call;
+  int calling = -1;
+  robot.children.for_each([&](int k) {
+    const Call& c = robot.said(k).call;
+    if (call.source != nobody && c.source == call.source && c.hops < call.hops) calling = k;
+  });
+  return gather(robot, calling, robot.parent);
 }
 
 // Edges are taut strings: chains become straight, and three meet at 120 degrees.
 Vec2 tension(const Robot& robot) noexcept {
-  return strings(robot, tension_start, tension_width) * robot.params.tension_gain;
-}
-
-// While a post near by waits in vain, long edges take slack from short ones.
-Vec2 slack(const Robot& robot) noexcept {
-  constexpr float gain = 2.0F;
-  const Params& p = robot.params;
-  if (!robot.is_needed_near()) return {};
-  return strings(robot, robot.shortened(p.pull_start), robot.shortened(p.longest_edge - p.pull_start)) * gain;
+  Vec2 u;
+  const auto draw = [&](int k) {
+    u += unit(robot.position(k)) * ramp(robot.range(k), tension_start, tension_width);
+  };
+  if (robot.parent >= 0) draw(robot.parent);
+  robot.children.for_each(draw);
+  return u * robot.params.tension_gain;
 }
 
 // Room for others: spares and robots of the tree that are near, and the lines of sight of their edges.

@@ -9,8 +9,7 @@ namespace {
 constexpr int takeover_beats = 60;      // a new holder's count starts so far ahead of the news under way
 constexpr int rival_beats = 30;         // a count farther behind mine is that of a dead holder
 constexpr int urgent_rounds = 40;       // for so long a new holder has priority
-constexpr int per_round = 16;           // units of news_gap
-constexpr int gap_memory = 64;          // pieces of news
+constexpr int news_rounds = 8;          // for each token: robots tell of all in turn, one a round
 constexpr int first_root_rounds = 200;  // by then the first root would have been heard
 constexpr float beside = 1.0F;          // C: only a robot so near to where the root was may become root
 constexpr float trust = 0.2F;           // in a place that is only remembered
@@ -63,6 +62,7 @@ void announce(Token& t, RobotId holder) noexcept {
   t.beat = advanced(t.beat, takeover_beats);
   t.age = 0;
   t.urgent = urgent_rounds;
+  t.reached = false;
 }
 
 bool is_there(const Robot& robot, const Token& t) noexcept {
@@ -157,12 +157,7 @@ void hear_token(Robot& robot, const Heard& h) noexcept {
   if (news.holder == self.id) return accept(robot, *t, *h.message);
   // The beats of the root's token are those of the order, which are heard from everybody.
   if (news.name == root_name || !is_news(news.beat, t->beat, t->age)) return;
-  if (news.holder == t->holder) {
-    const int gap = self.news_gap - self.news_gap / gap_memory;
-    self.news_gap = static_cast<std::uint16_t>(std::clamp<int>(t->age * per_round, gap, UINT16_MAX));
-  } else {
-    t->urgent = urgent_rounds;
-  }
+  if (news.holder != t->holder) t->urgent = urgent_rounds;
   take_news(self, *t, news);
 }
 
@@ -187,7 +182,7 @@ void follow_root(Robot& robot) noexcept {
 void mind_own(Robot& robot, const Orders& orders) noexcept {
   State& self = robot.self;
   for (Token& t : self.known())
-    if (t.name != root_name && t.holder == self.id && t.name != self.serves && !self.unfit) announce(t, nobody);
+    if (t.name != root_name && t.holder == self.id && t.name != self.serves) announce(t, nobody);
   if (orders.target && self.was_sent) {
     Token* t = find(self, self.id);
     if (t == nullptr) t = add(self, self.id, *orders.target);
@@ -206,21 +201,25 @@ void mind_own(Robot& robot, const Orders& orders) noexcept {
   }
 }
 
-// News goes in to the root and out to me, and on the way each robot tells of all tokens in turn.
-int way_of_news(const Robot& robot, const Token& t) noexcept {
-  constexpr float hop = 0.7F;  // C
-  const State& self = robot.self;
-  const float way = distance(self.tokens[0].place, t.place) + from_fixed(self.label);
-  return static_cast<int>(way / hop * static_cast<float>(self.token_count));
-}
-
 bool is_silent(const Robot& robot, const Token& t) noexcept {
   const Params& p = robot.params;
-  if (t.holder == put_off)
-    return robot.self.call.source == nobody &&
-           t.age > p.rounds(p.retry_drives) + whole(p.takeover_spread * norm(t.place));
-  const int late = t.name == root_name ? 0 : std::max(2 * robot.self.news_gap / per_round, way_of_news(robot, t));
-  return t.age > 2 * robot.liveness() + late + whole(p.takeover_rounds + p.takeover_spread * norm(t.place));
+  const float later = p.takeover_spread * norm(t.place);
+  if (t.holder == put_off) return robot.self.call.source == nobody && t.age > p.rounds(p.retry_drives) + whole(later);
+  if (t.holder == vacant) return t.age > whole(later);
+  const int late = t.name == root_name ? 0 : news_rounds * robot.self.token_count;
+  return t.age > 2 * robot.liveness() + late + whole(p.takeover_rounds + later);
+}
+
+// Who is tied to a holder knows first that it has died. News of one that is heard is not late.
+void watch_holders(Robot& robot) noexcept {
+  const Table& table = robot.table();
+  const int patience = 2 * robot.liveness() + whole(robot.params.takeover_rounds);
+  for (Token& t : robot.self.known()) {
+    const int k = t.name == root_name || t.age <= patience ? -1 : table.find(t.holder);
+    if (k < 0 || robot.said(k).role != Role::worker) continue;
+    if (table.age(k) <= patience) t.age = static_cast<std::uint16_t>(table.age(k));
+    else announce(t, vacant);
+  }
 }
 
 // Nobody has ever heard of a root: the smallest id among those that hear each other.
@@ -285,6 +284,7 @@ void keep_tokens(Robot& robot, const Orders& orders) noexcept {
         continue;
     if (h.message->id != self.id) hear_token(robot, h);
   }
+  watch_holders(robot);
   take_over(robot);
 }
 
@@ -311,7 +311,7 @@ void watch_progress(Robot& robot, Vec2 v) noexcept {
   if (self.effort < in_vain && !waits_in_vain) return;
   self.unfit |= self.effort >= in_vain;
   self.serves = nobody;
-  if (waits_in_vain) announce(*t, put_off);
+  announce(*t, waits_in_vain ? put_off : vacant);
 }
 
 // The next token, or every second time the next that is urgent; the neighbour that is told places changes with each

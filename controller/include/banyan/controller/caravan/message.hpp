@@ -52,11 +52,13 @@ struct Statement {
 inline constexpr RobotId root_name = 0xFFFE;
 // The holder of a target that is put off until robots suffice.
 inline constexpr RobotId put_off = 0xFFFE;
+// And of one whose holder died or left it: the nearest spare takes it.
+inline constexpr RobotId vacant = 0xFFFD;
 
 // A token as a message tells of it, one in turn (principle 5).
 struct TokenNews {
   RobotId name = nobody;    // nobody: none is known
-  RobotId holder = nobody;  // nobody: it has been given up; or put_off
+  RobotId holder = nobody;  // nobody: it has been given up; or put_off, or vacant
   Serial beat = 0;          // the holder's count of rounds
   bool reached = false;     // the holder is there
   bool charging = false;    // the place is one to be charged at
@@ -98,7 +100,8 @@ template <class Visitor, class M> constexpr void visit_all(Visitor& visit, M& m)
   visit.flag("token_charging", "1: the place of `token` is one to be charged at", m.token.charging);
   visit.robot("token", "a token in turn: a target, by the robot first sent there, or 65534: the root; -1: none",
               m.token.name);
-  visit.robot("token_holder", "the robot that holds it, -1: it has been given up, 65534: put off until robots suffice",
+  visit.robot("token_holder", "the robot that holds it, -1: it has been given up, 65534: put off until robots suffice, "
+              "65533: to be taken by a spare",
               m.token.holder);
   visit.number("token_beat", "the holder's count of rounds, modulo 65536", m.token.beat);
   visit.robot("told", "the neighbour that is told its place, -1: nobody", m.token.told);

@@ -68,11 +68,6 @@ struct Robot {
   [[nodiscard]] bool serves_only_me(int k) const noexcept {
     return said(k).role == Role::connector && said(k).children <= 1;
   }
-  // A post waits in vain near by.
-  [[nodiscard]] bool is_needed_near() const noexcept {
-    constexpr int near_hops = 8;
-    return self.call.source != nobody && self.call.hops <= near_hops;
-  }
   void add_elapsed(std::uint16_t& rounds) const noexcept {
     rounds = static_cast<std::uint16_t>(std::min(rounds + elapsed_rounds, UINT16_MAX));
   }

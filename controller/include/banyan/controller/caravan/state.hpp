@@ -47,8 +47,6 @@ struct State : Message {
   std::uint8_t token_count = 1;
   std::uint8_t turn = 0;  // which token is told next
   std::uint8_t urgent_turn = 0;
-  // Sixteenths of rounds: the longest time of late without news of a holder that was there.
-  std::uint16_t news_gap = 200;
   std::array<Token, most_tokens> tokens{};  // the first `token_count`; the root's is the first
   bool rests = false;                       // its beat, so that another robot gets ahead
   std::uint16_t other_rounds = 0;           // for how long the old promise has stood beside the new one
