@@ -49,10 +49,9 @@ Vec2 tow(const Robot& robot) noexcept {
 Vec2 gather(const Robot& robot, int to, int kept) noexcept {
   constexpr float stretched = 0.91F;  // C
   constexpr float width = 0.05F;
-  constexpr float gain = 0.8F;
   if (to < 0 || kept < 0) return {};
   const float slack = std::clamp((stretched - robot.stretched(robot.range(kept))) / width, -1.0F, 1.0F);
-  return unit(robot.position(slack > 0.0F ? to : kept)) * (std::abs(slack) * gain);
+  return unit(robot.position(slack > 0.0F ? to : kept)) * (2.0F * std::abs(slack));
 }
 
 // Once all below have arrived slack gathers at the inner end, where a robot becomes superfluous.
