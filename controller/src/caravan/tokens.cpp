@@ -9,7 +9,7 @@ namespace {
 constexpr int takeover_beats = 60;      // a new holder's count starts so far ahead of the news under way
 constexpr int rival_beats = 30;         // a count farther behind mine is that of a dead holder
 constexpr int urgent_rounds = 40;       // for so long a new holder has priority
-constexpr int news_rounds = 8;          // for each token: robots tell of all in turn, one a round
+constexpr float news_rounds = 4.0F;     // a token, and as many for each C to its place: robots tell of all in turn
 constexpr int first_root_rounds = 200;  // by then the first root would have been heard
 constexpr float beside = 1.0F;          // C: only a robot so near to where the root was may become root
 constexpr float trust = 0.2F;           // in a place that is only remembered
@@ -206,8 +206,9 @@ bool is_silent(const Robot& robot, const Token& t) noexcept {
   const float later = p.takeover_spread * norm(t.place);
   if (t.holder == put_off) return robot.self.call.source == nobody && t.age > p.rounds(p.retry_drives) + whole(later);
   if (t.holder == vacant) return t.age > whole(later);
-  const int late = t.name == root_name ? 0 : news_rounds * robot.self.token_count;
-  return t.age > 2 * robot.liveness() + late + whole(p.takeover_rounds + later);
+  const float late =
+      t.name == root_name ? 0.0F : news_rounds * static_cast<float>(robot.self.token_count) * (1.0F + norm(t.place));
+  return t.age > 2 * robot.liveness() + whole(p.takeover_rounds + later + late);
 }
 
 // Who is tied to a holder knows first that it has died. News of one that is heard is not late.
