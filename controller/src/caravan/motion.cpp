@@ -158,7 +158,7 @@ Vec2 stay(Robot& /*robot*/) noexcept { return {}; }
 
 Vec2 to_root(Robot& robot) noexcept {
   constexpr float near = 0.2F;  // C
-  const Vec2 place = robot.self.tokens[0].place;
+  const Vec2 place = robot.parent >= 0 ? robot.position(robot.parent) : robot.self.tokens[0].place;
   return norm(place) > near ? towards(robot, place) : Vec2{};
 }
 
@@ -222,8 +222,8 @@ struct Goal {
 
 // The first that applies.
 constexpr Goal goals[] = {
-    {"the root is silent: all meet where it was", is_cut_off, to_root, Room::none},
     {"the parent is silent: to where it was", has_lost_parent, to_parent, Room::passing},
+    {"the root is silent: after the parent, or to where the root was", is_cut_off, to_root, Room::none},
     {"a worker: to its target", is_worker, to_target, Room::none},
     {"towed: after the children that have to go on", is_towed, after_children, Room::wide},
     {"arrived: gather the slack of the chain", has_arrived, gather_slack, Room::wide},

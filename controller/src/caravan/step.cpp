@@ -28,7 +28,7 @@ void file_heard(Robot& robot, const Inputs<Heard>& inputs) noexcept {
     if (k < 0) continue;
     table.statements[static_cast<std::size_t>(k)] = static_cast<const Statement&>(m);
   }
-  const auto keeps = [&](int k) { return table.id(k) == self.parent || is_promised(robot, k); };
+  const auto keeps = [&](int k) { return is_promised(robot, k); };
   for (int k = 0; (k = table.remove_next(k, carry, robot.liveness(), keeps)) >= 0;)
     close_gap(table.statements, k, table.size() + 1);
 }
