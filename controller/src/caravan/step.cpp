@@ -64,7 +64,7 @@ void update_role(Robot& robot) noexcept {
                                       : Role::spare;
   self.children = static_cast<std::uint8_t>(robot.child_count);
   float want = 0.0F;
-  const float rests_within = 0.9F * robot.params.arrival_distance;
+  const float rests_within = 0.6F * robot.params.arrival_distance;
   if (const Vec2* target = self.target(); target != nullptr && norm(*target) > rests_within) want = norm(*target);
   self.want = to_fixed<std::uint16_t>(want, per_range);
   robot.children.for_each([&](int k) { self.want = std::max(self.want, robot.said(k).want); });
