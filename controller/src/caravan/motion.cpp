@@ -47,31 +47,29 @@ Vec2 tow(const Robot& robot) noexcept {
 
 // Comes nearer to one neighbour until the edge to another is stretched: so the slack of a chain gathers at one end.
 Vec2 gather(const Robot& robot, int to, int kept) noexcept {
-  constexpr float stretched = 0.91F;  // C
+  constexpr float taut = 0.91F;  // C
   constexpr float width = 0.05F;
   if (to < 0 || kept < 0) return {};
-  const float slack = std::clamp((stretched - robot.stretched(robot.range(kept))) / width, -1.0F, 1.0F);
+  // Where robots are relieved, one beside another has to reach as far.
+  const State& self = robot.self;
+  const float good = self.level < 0.0F || self.want > 0 ? taut : robot.params.need_distance;
+  const float slack = std::clamp((good - robot.stretched(robot.range(kept))) / width, -1.0F, 1.0F);
   return unit(robot.position(slack > 0.0F ? to : kept)) * (2.0F * std::abs(slack));
 }
 
-// Once all below have arrived slack gathers at the inner end, where a robot becomes superfluous.
-Vec2 compaction(const Robot& robot) noexcept {
-  int longest = -1;
-  robot.children.for_each([&](int k) {
-    if (longest < 0 || robot.range(k) > robot.range(longest)) longest = k;
-  });
-  return gather(robot, robot.parent, longest);
-}
-
-// While a post waits in vain, at the end that calls.
-Vec2 slack(const Robot& robot) noexcept {
+// While a post waits in vain slack gathers where it calls; once all below have arrived at the inner end, where a robot
+// becomes superfluous.
+Vec2 gather_slack(const Robot& robot) noexcept {
   const Call& call = robot.self.call;
   int calling = -1;
+  int longest = -1;
   robot.children.for_each([&](int k) {
     const Call& c = robot.said(k).call;
     if (call.source != nobody && c.source == call.source && c.hops < call.hops) calling = k;
+    if (longest < 0 || robot.range(k) > robot.range(longest)) longest = k;
   });
-  return gather(robot, calling, robot.parent);
+  if (calling >= 0) return gather(robot, calling, robot.parent);
+  return robot.self.want > 0 ? Vec2{} : gather(robot, robot.parent, longest);
 }
 
 // Edges are taut strings: chains become straight, and three meet at 120 degrees.
@@ -107,7 +105,7 @@ Vec2 make_room(const Robot& robot, float width) noexcept {
     if (!p.line_of_sight || width <= 0.0F || !robot.is_tree(k) || k == robot.parent || m.parent == robot.self.id)
       continue;
     const int up = table.find(m.parent);
-    if (up < 0) continue;
+    if (up < 0 || robot.children.has(up)) continue;
     const Vec2 along = unit(table.position(up) - table.position(k));
     push(nearest_on_segment(table.position(k), table.position(up)), width, left_of(along));
   }
@@ -171,16 +169,16 @@ Vec2 to_target(Robot& robot) noexcept {
   if (target == nullptr) return {};
   const float within = robot.params.arrival_distance * 0.95F - norm(*target);
   return (robot.parent >= 0 ? towards(robot, *target) : Vec2{}) +
-         clamped(slack(robot), std::clamp(within / slowing / fading, 0.0F, 1.0F));
+         clamped(gather_slack(robot), std::clamp(within / slowing / fading, 0.0F, 1.0F));
 }
 
 // Round obstacles, if there are any; and under tension.
 Vec2 drawn(Robot& robot, Vec2 pull) noexcept {
   if (!robot.obstacles.empty() && !(pull == Vec2{})) pull = towards(robot, pull) * norm(pull);
-  return pull + tension(robot) + slack(robot);
+  return pull + tension(robot);
 }
-Vec2 after_children(Robot& robot) noexcept { return drawn(robot, tow(robot)); }
-Vec2 gather_slack(Robot& robot) noexcept { return drawn(robot, compaction(robot)); }
+Vec2 after_children(Robot& robot) noexcept { return drawn(robot, tow(robot)) + gather_slack(robot); }
+Vec2 close_up(Robot& robot) noexcept { return drawn(robot, gather_slack(robot)); }
 
 Vec2 to_charging_place(Robot& robot) noexcept {
   constexpr float at_place = 0.2F;  // C
@@ -188,7 +186,7 @@ Vec2 to_charging_place(Robot& robot) noexcept {
   return norm(place) > at_place ? towards(robot, place) : Vec2{};
 }
 
-// Beside one that runs low; into the edge, if it hears both ends; past the one that passed the call on, in the
+// Up to one that runs low; into the edge, if it hears both ends; past the one that passed the call on, in the
 // direction in which its branch leads; else to that one.
 Vec2 to_post(Robot& robot) noexcept {
   constexpr float past = 0.5F;  // C
@@ -198,8 +196,7 @@ Vec2 to_post(Robot& robot) noexcept {
   const int up = robot.is_tree(k) ? robot.table().find(m.parent) : -1;
   const bool calls = m.call.source == robot.table().id(k);
   Vec2 place = at;
-  if (calls && m.leaving) place = at - unit(at) * (2.0F * robot.params.room);
-  else if (up >= 0 && calls) place = at + (robot.position(up) - at) * 0.5F;
+  if (up >= 0 && calls && !m.leaving) place = at + (robot.position(up) - at) * 0.5F;
   else if (m.role == Role::root) place = at + unit(at) * past + left_of(unit(at)) * (2.0F * robot.params.room);
   return towards(robot, place);
 }
@@ -226,7 +223,7 @@ constexpr Goal goals[] = {
     {"the root is silent: after the parent, or to where the root was", is_cut_off, to_root, Room::none},
     {"a worker: to its target", is_worker, to_target, Room::none},
     {"towed: after the children that have to go on", is_towed, after_children, Room::wide},
-    {"arrived: gather the slack of the chain", has_arrived, gather_slack, Room::wide},
+    {"arrived: gather the slack of the chain", has_arrived, close_up, Room::wide},
     {"a thin start: stay, somebody unheard may depend on me", awaits_the_unheard, stay, Room::wide},
     {"low on charge: to be charged", is_to_be_charged, to_charging_place, Room::wide},
     {"called: to the nearest post", is_called, to_post, Room::wide},
@@ -250,7 +247,6 @@ void limit_motion(const Robot& robot, Guard& guard) noexcept {
   const Params& p = robot.params;
   const Table& table = robot.table();
   const float touching = 2.1F * p.body_radius;
-  const bool by_memory = robot.self.serves != nobody && robot.self.serves != robot.self.id;
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
     // With k paths an edge of the tree has a k-th of the length, unless it is longer already.
@@ -260,9 +256,8 @@ void limit_motion(const Robot& robot, Guard& guard) noexcept {
     const bool is_free = table.age(k) <= robot.hidden_after() && 0.5F * (end - d) * p.guard_rate >= 1.0F;
     if (!is_free && is_promised(robot, k))
       guard.add(table.position(k), end - table.spread() - strayed(robot, k), p.guard_rate);
-    // One that is pushed does not notice, and is wrong about places from then on.
-    const bool pushes = (robot.said(k).role == Role::worker && !is_worker(robot)) || by_memory;
-    if (pushes && table.age(k) == 0 && d < touching + 0.05F && d > 0.0F)
+    // Nobody pushes: who is pushed does not notice, and is wrong about places from then on.
+    if (table.age(k) == 0 && d < touching + 0.05F && d > 0.0F)
       guard.add_limit(table.position(k) / d, std::max(0.0F, d - touching) * p.guard_rate);
   }
 }

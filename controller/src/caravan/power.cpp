@@ -31,7 +31,7 @@ void watch_charge(Robot& robot, const Inputs<Heard>& inputs) noexcept {
   bool keeps_place = false;
   for (const Token& t : self.known()) keeps_place |= t.name == self.serves && t.charging;
   if (self.role == Role::spare) {
-    self.leaving = self.level < p.ready_above;
+    self.leaving = self.level < p.charge_below;
     self.seeks_charge = place != nullptr && self.level < (self.seeks_charge ? full : p.charge_below);
     return;
   }
@@ -40,7 +40,7 @@ void watch_charge(Robot& robot, const Inputs<Heard>& inputs) noexcept {
   const unsigned turn = self.id * 37U % turns;  // so that ids next to each other are far apart
   const float below = self.was_charged ? least
                                        : std::min(least + sooner * static_cast<float>(turn) / turns,
-                                                  std::max(least, p.ready_above - 0.05F));
+                                                  std::max(least, p.charge_below - 0.05F));
   self.leaving = !keeps_place && self.level < (self.leaving ? full : below);
 }
 
@@ -51,10 +51,12 @@ const Token* charging_place(const Robot& robot) noexcept {
 int heir(const Robot& robot) noexcept {
   constexpr float beside = 0.3F;  // C
   const Table& table = robot.table();
-  return least_of(table.size(), beside, [&](int k) {
+  const Vec2* const target = robot.self.target();
+  const Vec2 place = target == nullptr ? Vec2{} : *target;
+  return least_of(table.size(), target == nullptr ? beside : robot.params.arrival_distance, [&](int k) {
     const Statement& m = robot.said(k);
     const bool may = table.age(k) == 0 && !m.leaving && m.role == Role::spare;
-    return may ? table.range(k) : not_counted;
+    return may ? distance(table.position(k), place) : not_counted;
   });
 }
 

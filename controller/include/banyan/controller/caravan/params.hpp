@@ -32,8 +32,7 @@ struct Params : Machine {
   float give_up_drives = 4.0F;    // of waiting for spares in vain, once and again the nearer the target is
   float retry_drives = 12.0F;     // a target that was put off is tried again after so long
   float relieve_below = 0.35F;    // of a full battery: a robot of the tree with less asks to be relieved
-  float ready_above = 0.8F;       // a spare with less joins no edge
-  float charge_below = 0.85F;     // and with less than this goes to be charged
+  float charge_below = 0.75F;     // a spare with less joins no edge, and goes to be charged
   float arrival_distance = 0.1F;  // the mission's tolerance
   float speed_gain = 1.0F;
 };
