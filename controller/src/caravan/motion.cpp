@@ -9,11 +9,10 @@ namespace {
 
 bool is_worker(const Robot& robot) noexcept { return robot.self.role == Role::worker; }
 
-constexpr float tension_start = 0.15F;  // C
+constexpr float tension_start = 0.15F;  // C; full at twice as much
 constexpr float pinned_start = 0.125F;
-constexpr float pinned_width = 0.05F;
-constexpr float tension_width = 0.15F;
-constexpr float slowing = 0.05F;       // the last bit to a place
+constexpr float narrow = 0.05F;        // in which something begins or ends: a pull, the last bit to a place
+constexpr float at_place = 0.2F;       // where several meet: none goes nearer
 constexpr float follow_spare = 0.75F;  // a spare stays so near to its parent
 constexpr float sight_width = 0.35F;   // C: robots that stand keep so far from the edges of others
 constexpr float follow_tree = 0.5F;
@@ -23,9 +22,9 @@ float ramp(float d, float start, float width) noexcept { return std::clamp((d - 
 // Towards a place, round obstacles; slower over the last bit.
 Vec2 towards(Robot& robot, Vec2 place) noexcept {
   constexpr float last_bit = 0.15F;  // straight, as near as obstacles allow: a dead worker may lie there
-  if (robot.self.role == Role::worker && norm(place) < last_bit) return clamped(place / slowing, 1.0F);
+  if (robot.self.role == Role::worker && norm(place) < last_bit) return clamped(place / narrow, 1.0F);
   return bypass({robot.obstacles, robot.params.body_radius, robot.self.id}, robot.self.detour, place) *
-         std::min(1.0F, norm(place) / slowing);
+         std::min(1.0F, norm(place) / narrow);
 }
 
 // A connector follows the children that still have to go on.
@@ -39,7 +38,7 @@ Vec2 tow(const Robot& robot) noexcept {
     const Statement& m = robot.said(k);
     // A child at a corner needs its parent there before it can go round.
     if (m.want > 0)
-      u += unit(robot.position(k)) * (m.pinned ? ramp(robot.range(k), pinned_start, pinned_width)
+      u += unit(robot.position(k)) * (m.pinned ? ramp(robot.range(k), pinned_start, narrow)
                                                : ramp(robot.stretched(robot.range(k)), start, p.pull_width));
   });
   return clamped(u, 1.0F);
@@ -48,12 +47,11 @@ Vec2 tow(const Robot& robot) noexcept {
 // Comes nearer to one neighbour until the edge to another is stretched: so the slack of a chain gathers at one end.
 Vec2 gather(const Robot& robot, int to, int kept) noexcept {
   constexpr float taut = 0.91F;  // C
-  constexpr float width = 0.05F;
   if (to < 0 || kept < 0) return {};
   // Where robots are relieved, one beside another has to reach as far.
   const State& self = robot.self;
   const float good = self.level < 0.0F || self.want > 0 ? taut : robot.params.need_distance;
-  const float slack = std::clamp((good - robot.stretched(robot.range(kept))) / width, -1.0F, 1.0F);
+  const float slack = std::clamp((good - robot.stretched(robot.range(kept))) / narrow, -1.0F, 1.0F);
   return unit(robot.position(slack > 0.0F ? to : kept)) * (2.0F * std::abs(slack));
 }
 
@@ -75,9 +73,7 @@ Vec2 gather_slack(const Robot& robot) noexcept {
 // Edges are taut strings: chains become straight, and three meet at 120 degrees.
 Vec2 tension(const Robot& robot) noexcept {
   Vec2 u;
-  const auto draw = [&](int k) {
-    u += unit(robot.position(k)) * ramp(robot.range(k), tension_start, tension_width);
-  };
+  const auto draw = [&](int k) { u += unit(robot.position(k)) * ramp(robot.range(k), tension_start, tension_start); };
   if (robot.parent >= 0) draw(robot.parent);
   robot.children.for_each(draw);
   return u * robot.params.tension_gain;
@@ -85,7 +81,6 @@ Vec2 tension(const Robot& robot) noexcept {
 
 // Room for others: spares and robots of the tree that are near, and the lines of sight of their edges.
 Vec2 make_room(const Robot& robot, float width) noexcept {
-  constexpr float most = 20.0F;  // on a line; not without limit
   constexpr float gain = 0.5F;
   constexpr float of_tree = 1.3F;  // times as much room
   const Params& p = robot.params;
@@ -93,7 +88,7 @@ Vec2 make_room(const Robot& robot, float width) noexcept {
   Vec2 u;
   const auto push = [&](Vec2 near, float reach, Vec2 aside) {
     const float d = norm(near);
-    if (d < reach) u += (d > 1e-4F ? near / -d : aside) * (gain * std::min(reach / std::max(d, 1e-4F) - 1.0F, most));
+    if (d < reach) u += (d > 1e-4F ? near / -d : aside) * (gain * (reach / std::max(d, 1e-4F) - 1.0F));
   };
   for (int k = 0; k < table.size(); ++k) {
     if (robot.is_lost(k)) continue;
@@ -120,11 +115,6 @@ Vec2 make_room(const Robot& robot, float width) noexcept {
       });
     });
   }
-  // And at a place where others are charged.
-  constexpr float of_place = 0.4F;  // C
-  if (robot.self.role == Role::spare && robot.self.level >= 0.0F && !robot.self.seeks_charge)
-    for (const Token& t : robot.self.known())
-      if (t.charging && t.located) push(t.place, of_place, {});
   return u;
 }
 
@@ -155,21 +145,15 @@ bool always(const Robot& /*robot*/) noexcept { return true; }
 Vec2 stay(Robot& /*robot*/) noexcept { return {}; }
 
 Vec2 to_root(Robot& robot) noexcept {
-  constexpr float near = 0.2F;  // C
   const Vec2 place = robot.parent >= 0 ? robot.position(robot.parent) : robot.self.tokens[0].place;
-  return norm(place) > near ? towards(robot, place) : Vec2{};
+  return norm(place) > at_place ? towards(robot, place) : Vec2{};
 }
 
 Vec2 to_parent(Robot& robot) noexcept { return towards(robot, robot.position(robot.parent)); }
 
-// At its target it gives way a little, if that lets another one reach its own.
 Vec2 to_target(Robot& robot) noexcept {
-  constexpr float fading = 0.1F;
   const Vec2* const target = robot.self.target();
-  if (target == nullptr) return {};
-  const float within = robot.params.arrival_distance * 0.95F - norm(*target);
-  return (robot.parent >= 0 ? towards(robot, *target) : Vec2{}) +
-         clamped(gather_slack(robot), std::clamp(within / slowing / fading, 0.0F, 1.0F));
+  return target != nullptr && robot.parent >= 0 ? towards(robot, *target) : Vec2{};
 }
 
 // Round obstacles, if there are any; and under tension.
@@ -181,15 +165,12 @@ Vec2 after_children(Robot& robot) noexcept { return drawn(robot, tow(robot)) + g
 Vec2 close_up(Robot& robot) noexcept { return drawn(robot, gather_slack(robot)); }
 
 Vec2 to_charging_place(Robot& robot) noexcept {
-  constexpr float at_place = 0.2F;  // C
   const Vec2 place = charging_place(robot)->place;
   return norm(place) > at_place ? towards(robot, place) : Vec2{};
 }
 
-// Up to one that runs low; into the edge, if it hears both ends; past the one that passed the call on, in the
-// direction in which its branch leads; else to that one.
+// Into the edge, if it hears both ends; else up to the one that passed the call on, or runs low.
 Vec2 to_post(Robot& robot) noexcept {
-  constexpr float past = 0.5F;  // C
   const int k = robot.caller;
   const Vec2 at = robot.position(k);
   const Statement& m = robot.said(k);
@@ -197,7 +178,6 @@ Vec2 to_post(Robot& robot) noexcept {
   const bool calls = m.call.source == robot.table().id(k);
   Vec2 place = at;
   if (up >= 0 && calls && !m.leaving) place = at + (robot.position(up) - at) * 0.5F;
-  else if (m.role == Role::root) place = at + unit(at) * past + left_of(unit(at)) * (2.0F * robot.params.room);
   return towards(robot, place);
 }
 
@@ -257,7 +237,7 @@ void limit_motion(const Robot& robot, Guard& guard) noexcept {
     if (!is_free && is_promised(robot, k))
       guard.add(table.position(k), end - table.spread() - strayed(robot, k), p.guard_rate);
     // Nobody pushes: who is pushed does not notice, and is wrong about places from then on.
-    if (table.age(k) == 0 && d < touching + 0.05F && d > 0.0F)
+    if (table.age(k) == 0 && d < touching + narrow && d > 0.0F)
       guard.add_limit(table.position(k) / d, std::max(0.0F, d - touching) * p.guard_rate);
   }
 }

@@ -21,9 +21,8 @@ bool has_post(Robot& robot) noexcept {
 
 // A robot that runs low can wait, the less the less charge is left: as if it were so many hops farther away.
 std::uint8_t urgency(const State& self) noexcept {
-  constexpr float at_once = 0.1F;  // of a full battery
-  constexpr float hops = 20.0F;    // for a full one
-  return self.leaving ? static_cast<std::uint8_t>(hops * std::max(0.0F, self.level - at_once)) : std::uint8_t{0};
+  constexpr float hops = 20.0F;  // with a full battery
+  return self.leaving ? static_cast<std::uint8_t>(hops * self.level) : std::uint8_t{0};
 }
 
 // The neighbour through which the post is nearest, -1: there is none.

@@ -133,10 +133,10 @@ void add_to(Digest& digest, const State& s) noexcept {
   const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };
   visit_fields(visit, static_cast<const Message&>(s));
   add(s.level, s.was_charged, s.seeks_charge, s.newest.sequence, s.newest.id, s.serves, s.was_sent, s.unfit, s.nearest,
-      s.effort, s.stuck_rounds, s.token_count, s.turn, s.urgent_turn, s.since_start, s.rests,
-      s.other_rounds, s.rest_rounds, s.childless_rounds, s.left, s.ended.source, s.ended.count, s.ended_rounds,
-      s.post_count, s.call_silence, s.unserved_rounds, s.expected_packets, s.missed_packets, s.loss_rounds,
-      s.assumed_silence, s.round, s.neighbors.size());
+      s.effort, s.stuck_rounds, s.token_count, s.turn, s.urgent_turn, s.since_start, s.rests, s.other_rounds,
+      s.rest_rounds, s.childless_rounds, s.left, s.ended.source, s.ended.count, s.ended_rounds, s.post_count,
+      s.call_silence, s.unserved_rounds, s.expected_packets, s.missed_packets, s.loss_rounds, s.assumed_silence,
+      s.round, s.neighbors.size());
   for (int k = 0; k < s.neighbors.size(); ++k) {
     add(s.neighbors.id(k), s.neighbors.age(k), s.neighbors.position(k), s.neighbors.measurements(k));
     Message said;

@@ -6,9 +6,9 @@
 namespace banyan::caravan {
 namespace {
 
-constexpr int takeover_beats = 60;      // a new holder's count starts so far ahead of the news under way
-constexpr int rival_beats = 30;         // a count farther behind mine is that of a dead holder
-constexpr int urgent_rounds = 40;       // for so long a new holder has priority
+constexpr int takeover_beats = 60;               // a new holder's count starts so far ahead of the news under way
+constexpr int rival_beats = takeover_beats / 2;  // a count farther behind mine is that of a dead holder
+constexpr int urgent_rounds = 40;                // for so long a new holder has priority
 constexpr float news_rounds = 4.0F;     // a token, and as many for each C to its place: robots tell of all in turn
 constexpr int first_root_rounds = 200;  // by then the first root would have been heard
 constexpr float beside = 1.0F;          // C: only a robot so near to where the root was may become root
