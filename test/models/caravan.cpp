@@ -294,7 +294,6 @@ void load(int me, const Holding& self, int first, int there) {
   s.root = s.newest = {self.sequence, to_id(self.root)};
   s.serves = self.serving ? to_id(first) : nobody;
   s.role = self.root == me ? Role::root : self.serving ? Role::worker : Role::spare;
-  s.news_gap = 16;
   s.token_count = 2;
   s.tokens[0] = {.name = caravan::root_name,
                  .holder = to_id(self.root),

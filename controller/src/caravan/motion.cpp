@@ -63,9 +63,10 @@ Vec2 gather_slack(const Robot& robot) noexcept {
   int longest = -1;
   robot.children.for_each([&](int k) {
     const Call& c = robot.said(k).call;
-    if (call.source != nobody && c.source == call.source && c.hops < call.hops) calling = k;
+    if (call.source != nobody && c.source == call.source && c.hops <= call.hops) calling = k;
     if (longest < 0 || robot.range(k) > robot.range(longest)) longest = k;
   });
+  if (const int source = robot.table().find(call.source); calling >= 0 && source >= 0) calling = source;
   if (calling >= 0) return gather(robot, calling, robot.parent);
   return robot.self.want > 0 ? Vec2{} : gather(robot, robot.parent, longest);
 }

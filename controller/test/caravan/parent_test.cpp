@@ -48,9 +48,9 @@ TEST(CaravanParent, AConnectorIsSpareAgainOnceTheWorkerComesBack) {
   world.hold(0);
   world.steps(400);
   ASSERT_EQ(world.of_role(Role::connector).size(), 1U);
-  world.send(1, {0.5F, 0});
+  world.send(1, {0.4F, 0.3F});
   world.steps(300);
-  EXPECT_LE(world.to(1, {0.5F, 0}), tolerance);
+  EXPECT_LE(world.to(1, {0.4F, 0.3F}), tolerance);
   EXPECT_EQ(world.said(1).parent, 0);
   EXPECT_EQ(world.of_role(Role::spare).size(), 2U);
 }

@@ -36,12 +36,13 @@ TEST(CaravanPosts, WithoutACallItStaysWhereItIs) {
   EXPECT_LT(world.places[3].x, 0.0F);
 }
 
-// A root in its way, which has no branch that would show it the side: it stops right behind.
-TEST(CaravanPosts, ASpareComesPastARootThatCannotMove) {
-  TinyWorld world({{0, 0}, {0.3F, 0}, {-0.45F, 0.1F}}, {1});
-  world.send(1, {1.6F, 0});
-  world.hold(0);
-  EXPECT_LT(world.until(2000, [&] { return world.to(1, {1.6F, 0}) <= 0.1F; }), 1000);
+// Nobody is spare, and each of two workers needs a robot of its own behind it: the last but one comes up.
+TEST(CaravanPosts, WithoutSparesAChainGathersItsSlackWhereItCalls) {
+  TinyWorld world({{0, 0}, {0.6F, 0}, {1.2F, 0}, {1.8F, 0}, {2.4F, 0}, {2.4F, 0.5F}, {2.4F, -0.5F}}, {5, 6});
+  world.send(5, {2.2F, 1.2F});
+  world.send(6, {2.2F, -1.2F});
+  const auto both = [&] { return world.to(5, {2.2F, 1.2F}) <= 0.1F && world.to(6, {2.2F, -1.2F}) <= 0.1F; };
+  EXPECT_LT(world.until(1500, both), 1000);
 }
 
 TEST(CaravanPosts, AnEdgeCallsOnlyAfterItHasWaited) {

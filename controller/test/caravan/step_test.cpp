@@ -19,6 +19,17 @@ TEST(CaravanStep, FitsARobotAndItsRadio) {
   EXPECT_LE(sizeof(State), 6000U);
 }
 
+// One that stands stands in the way of a worker: both know afterwards where they are.
+TEST(CaravanStep, NobodyPushes) {
+  TinyWorld world({{0, 0}, {0.2F, 0}, {0.5F, 0}}, {1});
+  world.hold(2);
+  world.send(1, {0.8F, 0});
+  for (int t = 0; t < 300; ++t) {
+    world.step();
+    ASSERT_GE(world.between(1, 2), 2.0F * world.params.body_radius) << t;
+  }
+}
+
 // What a robot may hear, sane or not, as long as it passes the wire.
 Message babble(Dice& dice, std::size_t robots) {
   const auto word = [&](std::size_t below) { return static_cast<std::uint16_t>(dice.below(below)); };

@@ -33,6 +33,24 @@ TEST(CaravanTokens, OneSpareTakesTheTargetOfADeadHolderAndGoesThere) {
   EXPECT_LE(world.to(first[0], target_place), 0.1F);
 }
 
+// News of twenty others comes in turn; its parent notices at once.
+TEST(CaravanTokens, ADeadHolderIsReplacedAsSoonHoweverManyTargetsThereAre) {
+  std::vector<Vec2> places{{0, 0}, {0.3F, 0}, {0, 0.3F}, {-0.3F, 0}, {0, -0.3F}};
+  std::vector<std::size_t> sent{1};
+  for (std::size_t i = 5; i < 25; ++i) {
+    places.push_back(unit_vector(0.3F * static_cast<float>(i)) * 0.7F);
+    sent.push_back(i);
+  }
+  TinyWorld world(places, sent);
+  for (std::size_t i = 5; i < 25; ++i) world.send(i, places[i]);
+  world.send(1, {1.5F, 0});
+  world.steps(400);
+  ASSERT_LE(world.to(1, {1.5F, 0}), 0.1F);
+  world.kill(1);
+  world.call_back(1);
+  EXPECT_LE(world.until(600, [&] { return !world.holders(1).empty(); }), 120);
+}
+
 RC_GTEST_PROP(CaravanTokens, ExactlyOneHoldsTheTargetWhoeverDies, ()) {
   TinyWorld world = camp();
   world.dice = Dice(any_seed());
