@@ -34,7 +34,7 @@ class Index {
   }
 
  private:
-  static constexpr std::size_t places = 64;
+  static constexpr std::size_t places = 128;
   std::array<Token, most_tokens>& tokens_;
   std::array<std::uint8_t, places> at_{};
 };

@@ -29,7 +29,7 @@ struct Token {
   bool charging = false;    // one is charged there
   std::uint8_t urgent = 0;  // for so many rounds it is told out of turn
 };
-inline constexpr std::size_t most_tokens = 33;
+inline constexpr std::size_t most_tokens = 65;
 
 inline constexpr std::size_t most_corners = 8;
 
