@@ -100,8 +100,7 @@ template <class Visitor, class M> constexpr void visit_all(Visitor& visit, M& m)
   visit.flag("token_charging", "1: the place of `token` is one to be charged at", m.token.charging);
   visit.robot("token", "a token in turn: a target, by the robot first sent there, or 65534: the root; -1: none",
               m.token.name);
-  visit.robot("token_holder", "the robot that holds it, -1: it has been given up, 65534: put off until robots suffice, "
-              "65533: to be taken by a spare",
+  visit.robot("token_holder", "the robot that holds it, -1: given up, 65533: vacant, 65534: put off for want of robots",
               m.token.holder);
   visit.number("token_beat", "the holder's count of rounds, modulo 65536", m.token.beat);
   visit.robot("told", "the neighbour that is told its place, -1: nobody", m.token.told);
