@@ -66,9 +66,9 @@ Vec2 gather_slack(const Robot& robot) noexcept {
     if (call.source != nobody && c.source == call.source && c.hops <= call.hops) calling = k;
     if (longest < 0 || robot.range(k) > robot.range(longest)) longest = k;
   });
-  if (const int source = robot.table().find(call.source); calling >= 0 && source >= 0) calling = source;
-  if (calling >= 0) return gather(robot, calling, robot.parent);
-  return robot.self.want > 0 ? Vec2{} : gather(robot, robot.parent, longest);
+  if (calling < 0) return robot.self.want > 0 ? Vec2{} : gather(robot, robot.parent, longest);
+  const int source = robot.table().find(call.source);  // whose parent I am to become
+  return gather(robot, source >= 0 ? source : calling, robot.parent);
 }
 
 // Edges are taut strings: chains become straight, and three meet at 120 degrees.

@@ -7,7 +7,8 @@ namespace banyan::caravan {
 namespace {
 
 constexpr float full = 0.98F;
-constexpr float per_c = 0.02F;   // of a full battery, for each C to the place
+constexpr float per_c = 0.02F;  // of a full battery, for each C to the place
+constexpr float most_way = 0.24F;
 constexpr float sooner = 0.35F;  // all have started full, and are not to leave at once
 constexpr unsigned turns = 16;
 
@@ -35,7 +36,7 @@ void watch_charge(Robot& robot, const Inputs<Heard>& inputs) noexcept {
     return;
   }
   self.seeks_charge = false;
-  const float least = p.relieve_below + (place == nullptr ? 0.0F : per_c * norm(place->place));
+  const float least = p.relieve_below + (place == nullptr ? 0.0F : std::min(per_c * norm(place->place), most_way));
   const unsigned turn = self.id * 37U % turns;  // so that ids next to each other are far apart
   const float below = self.was_charged ? least
                                        : std::min(least + sooner * static_cast<float>(turn) / turns,

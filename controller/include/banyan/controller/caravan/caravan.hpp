@@ -49,7 +49,7 @@ void take_parent(Robot& robot, int k) noexcept;  // the one function that change
 void watch_charge(Robot& robot, const Inputs<Heard>& inputs) noexcept;
 // The place where I am to be charged; null: not now, or none is known.
 [[nodiscard]] const Token* charging_place(const Robot& robot) noexcept;
-// A robot beside me that may take over what I hold, -1: none.
+// A robot that may take over what I hold: at my target, or beside me as root; -1: none.
 [[nodiscard]] int heir(const Robot& robot) noexcept;
 
 // ---- posts.cpp: principle 3 ----
