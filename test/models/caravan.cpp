@@ -326,7 +326,8 @@ void caravan_token_step(int me, Holding* self, int id, const Holding* heard, Eve
   if (events.holder_silent) s.tokens[1].age = very_long;
   s.leaving = events.leaving;
   if (id >= 0) {
-    Message& m = Bench::put(id, {0.1F, 0});
+    // One that is to take over a target is there.
+    Message& m = Bench::put(id, events.leaving && self->serving ? s.tokens[1].place : Vec2{0.1F, 0});
     m.root = {heard->sequence, to_id(heard->root)};
     m.role = heard->root == id ? Role::root : heard->serving ? Role::worker : Role::spare;
     m.token = {
