@@ -128,9 +128,9 @@ Scenario drawn(std::uint64_t seed, std::uint64_t index, std::uint64_t attempt) {
   Scenario s = world::plain_scenario(algorithms());
   s.name = "soak-" + std::to_string(seed) + "-" + std::to_string(index);
   s.seed = mix(seed ^ mix(index)) >> 32;
-  const bool plain = dice.once_in(5);  // of the kind of which most is promised
+  const bool plain = dice.once_in(4);  // of the kind of which most is promised, whatever its start
   draw_radio(dice, s, plain);
-  if (!plain) draw_start(dice, s);
+  draw_start(dice, s);
   draw_targets(dice, s, plain);
   const std::vector<Vec2> targets = target_positions(s);
   double reach = 0.0;

@@ -91,6 +91,12 @@ std::size_t SightCheck::components(const std::vector<bool>& counts, bool with_si
   return components_over(counts, [&](std::size_t i, std::size_t j) { return !with_sight || !hidden(i, j); });
 }
 
+std::size_t SightCheck::components_within(const std::vector<bool>& counts, double longest_m) const {
+  return components_over(counts, [&](std::size_t i, std::size_t j) {
+    return distance(world_.positions()[i], world_.positions()[j]) <= longest_m && radio_reaches(i, j);
+  });
+}
+
 std::size_t SightCheck::components_both_ways(const std::vector<bool>& counts) const {
   return components_over(counts, [&](std::size_t i, std::size_t j) {
     return !world_.is_deaf(i, j) && !world_.is_deaf(j, i) && radio_reaches(i, j);

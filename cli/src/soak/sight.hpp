@@ -24,6 +24,8 @@ class SightCheck {
   [[nodiscard]] std::vector<double> link_lengths_m() const;
   // Components of the robots that `counts` marks, over pairs in range, and in sight if `with_sight`.
   [[nodiscard]] std::size_t components(const std::vector<bool>& counts, bool with_sight) const;
+  // Over pairs within `longest_m`, and in sight if the radio needs it.
+  [[nodiscard]] std::size_t components_within(const std::vector<bool>& counts, double longest_m) const;
   // Over pairs in range, and in sight if the radio needs it, of which both hear each other (radio.model = "one_way").
   [[nodiscard]] std::size_t components_both_ways(const std::vector<bool>& counts) const;
 

@@ -2,7 +2,6 @@
 #include "banyan/controller/convoy/convoy.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "banyan/controller/convoy/handing_on.hpp"
 #include "banyan/controller/convoy/plan.hpp"
@@ -158,17 +157,6 @@ bool may_reconstruct(const ConvoyRobot& robot) noexcept {
   return robot.self.stalled_ticks > robot.params.rounds(called ? called_patience_drives : patience_drives) && !begun;
 }
 
-// Edges of a tree that has arrived are nearly as long as they may be, and the flood takes short cuts over longer links.
-// So a robot of the last tree waits for a label over a link that may be an edge; else it would find no parent, while
-// robots that were above it take it for theirs.
-float label_reach(const ConvoyRobot& robot) noexcept {
-  constexpr int edge_wait_ticks = 30;
-  const ConvoyState& self = robot.self;
-  const bool is_member = self.old_parent != nobody || robot.useful_children > 0;
-  const bool waits = has_arrived(robot) && is_member && self.phase_ticks < edge_wait_ticks;
-  return waits ? longest_link : std::numeric_limits<float>::max();
-}
-
 // Once all workers have arrived, a spare that became root would be one more robot in the tree.
 bool may_inherit(const ConvoyRobot& robot, int k) noexcept {
   if (robot.power != nullptr && !may_inherit_root(*robot.power, k)) return false;
@@ -279,12 +267,11 @@ static Motion tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMessag
   watch_tasks(robot);             // does every target have its worker?
   index_neighbors(robot);         // who are my parent and children
   remember_corners(robot, state.corners);
-  robot.meets_at_the_dead = has_many_targets(robot);
   watch_branch(robot);  // has the last robot below me died?
   update_role(robot);
   advance_and_count(robot, state.subtree_workers >= state.flood_workers,
                     may_reconstruct(robot));                                    // the root's barriers
-  update_label(robot, label_reach(robot));                                      // Start Tree
+  update_label(robot);                                                          // Start Tree
   select_parent(robot, {.may_join = state.is_worker || is_named_parent(robot),  // Select Parent, repair
                         .prefers = [&](int a, int b) { return is_better_parent(robot, a, b); }});
   if (robot.power != nullptr) {
@@ -319,7 +306,6 @@ static Motion tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMessag
     u = retreats                    ? retreat_motion(robot, regroups)
         : state.role == Role::spare ? waiting_motion(robot)
                                     : towed_motion(robot);
-  if (awaits_the_unheard(robot)) u = {};
   Guard guard;
   guard_edges(robot, retreats, guard);
   guard_links(robot, retreats, guard);

@@ -29,7 +29,6 @@ constexpr float follow_tree = 0.5F;    // and behind a robot of the tree
 constexpr float called_follow_spare = 0.6F;  // the same while it is called elsewhere
 constexpr float called_follow_tree = 0.75F;
 constexpr float called_follow_thin = 0.9F;  // where no crowd is, and packets get lost
-constexpr int lost_hops = 12;               // without contact to the tree, tree_hops counts up by one a tick
 constexpr float pinned_start = 0.125F;
 constexpr float pinned_width = 0.05F;
 constexpr float up_start = 0.025F;  // beside a junction that is handed on
@@ -43,12 +42,6 @@ constexpr int silent_ticks = 2;  // a robot silent for longer is out of sight
 // Somewhere near, an edge waits in vain for a spare.
 bool is_short_of_robots(const ConvoyRobot& robot) noexcept { return robot.self.call_hops <= slack_reach_hops; }
 
-// The workers below me have come no nearer to their targets for a while. In a large swarm rule 16 helps them.
-bool is_stuck(const ConvoyRobot& robot) noexcept {
-  constexpr float stuck_after_drives = 0.5F;
-  return !is_counted_large(robot) && robot.self.stalled_ticks > robot.params.rounds(stuck_after_drives);
-}
-
 // Neighbour k stands at its target, and robots below it in the tree still have to go on.
 bool tows_past(const ConvoyRobot& robot, int k) noexcept {
   const float want = from_fixed(robot.table().message(k).want);
@@ -60,16 +53,6 @@ Vec2 pull_of(const ConvoyRobot& robot, int k) noexcept {
   const TreeStanding& m = robot.table().message(k);
   return from_edge_frame({static_cast<float>(m.pull_x) / pull_unit, static_cast<float>(m.pull_y) / pull_unit},
                          robot.table().position(k));
-}
-
-// Past child k, a worker at its target; round it, if I am stuck behind it, since its body is in the way.
-Vec2 way_past(const ConvoyRobot& robot, int k) noexcept {
-  const Vec2 pull = pull_of(robot, k);
-  const Vec2 at = robot.table().position(k);
-  const float d = robot.table().range(k);
-  if (!is_stuck(robot) || d > robot.params.avoidance_range || dot(pull, at) <= 0.0F) return pull;
-  const Vec2 left = left_of(at) / d;
-  return dot(pull, left) < 0.0F ? -left : left;
 }
 
 // The chain below me has slack, and I am a junction of a large swarm: my parent is near, or has come up to me.
@@ -102,7 +85,7 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
     if (!tows(k)) return;
     // The child of a worker at its target tows me past that worker: there it can take me as its parent.
     if (tows_past(robot, k)) {
-      u += way_past(robot, k);
+      u += pull_of(robot, k);
       return;
     }
     if (count == 1 && has_far_spares(robot) && is_held_by_branches(robot, k)) {
@@ -324,15 +307,6 @@ bool holds_still(const ConvoyRobot& robot) noexcept {
   return true;
 }
 
-// In a thin start with line of sight, a robot without a parent has lost sight of the one that ties it to the others:
-// that one; -1 if there is none.
-int lost_hold(const ConvoyRobot& robot) noexcept {
-  if (const int k = missed_tie(robot); k >= 0) return k;
-  const bool unseen = robot.hidden_ticks > 0 && robot.hold >= 0 &&
-                      robot.table().age(robot.hold) > std::max(silent_ticks, usual_silence_ticks(robot));
-  return unseen ? robot.hold : -1;
-}
-
 // A worker without a parent goes as far as its hold allows, which draws it back in proportion to the distance: turning
 // back at a fixed distance would oscillate for ever. While it hears no neighbour it only turns on the spot.
 Vec2 before_tree(const ConvoyRobot& robot) noexcept {
@@ -341,10 +315,6 @@ Vec2 before_tree(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   if (robot.self.phase >= Phase::grow_tree || !robot.self.is_worker) return repulsion(robot);
   if (robot.table().size() == 0) return robot.self.pull * turning;
-  if (const int k = lost_hold(robot); k >= 0) {
-    Detour back;  // the way to its target leads round the other side
-    return bypass(robot, back, robot.table().position(k));
-  }
   const Vec2 on = pull_past_obstacles(robot) + repulsion(robot);
   if (robot.hold < 0) return on;
   const float back = ramp(robot.table().range(robot.hold), p.recruitment_distance - 0.5F * hold_width, hold_width);
@@ -385,8 +355,7 @@ bool passes_pull_on(const ConvoyRobot& robot, Vec2& pull) noexcept {
     if (table.message(k).role != Role::spare && table.message(k).want > (best < 0 ? 0 : table.message(best).want))
       best = k;
   if (best < 0) return false;
-  // My parent is to come to where that child can take it as its own, and the child may have to go elsewhere.
-  pull = is_stuck(robot) ? unit(table.position(best)) : pull_of(robot, best);
+  pull = pull_of(robot, best);
   return true;
 }
 
@@ -478,13 +447,6 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
     return past(robot, bypass(robot, midpoint), wide * p.clearance);
   if (const int of = robot.table().find(self.accompanies); of >= 0)
     return past(robot, companion_motion(robot, of), companion_width(robot, of));
-  // No robot near has heard the tree for a while: it has gone behind an obstacle.
-  if (self.tree_hops > lost_hops && norm(self.corners.seen_from) > p.arrival_distance)
-    return bypass(robot, self.corners.seen_from) + repulsion(robot);
-  // The root is about to go round a corner, and waits for spares.
-  const int root = robot.table().find(self.root.id);
-  if (root >= 0 && robot.corner_of(root).pinned && robot.table().range(root) > p.avoidance_range)
-    return pushed_off(robot, bypass(robot, robot.table().position(root)), wide * p.clearance);
   // On batteries spares travel all the time: one that a reconstruction has stopped between two robots gets out of
   // there.
   if (holds_still(robot)) return robot.power != nullptr ? make_way(robot, p.clearance) : Vec2{};
@@ -500,7 +462,7 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   const bool led = k >= 0 && robot.table().message(k).role == Role::spare;
   const float reach = led ? follow_spare : follow_tree;
   // A spare under way along a chain may come nearer to lines of sight than one that waits.
-  const float width = p.line_of_sight ? wide * p.clearance : 0.0F;  // none where robots hide no edges
+  const float width = wide * p.clearance;
   if (robot.power != nullptr && robot.power->power.travels) {
     // If it is there, and hears nobody nearer to the place, that robot hides them: it goes round it.
     const Vec2 way = robot.power->power.way;

@@ -15,21 +15,17 @@ void watch_children(HealingRobot& robot) noexcept {
   const auto hangs = [&](int k) { return table.message(k).role != Role::spare; };
   const auto lives = [&](int k) { return hangs(k) && !fades(robot, k); };
   const auto any = [&](auto is) { return banyan::any_of(robot.children, is); };
-  const bool others = any(lives);
-  const bool meets = robot.meets_at_the_dead;
-  if (!robot.params.heals() || self.role != Role::connector || self.phase != Phase::grow_tree || (others && !meets)) {
+  if (!robot.params.heals() || self.role != Role::connector || self.phase != Phase::grow_tree || any(lives)) {
     self.dangling_ticks = 0;
     return;
   }
-  // A junction looks for a branch, not for a single robot.
-  const auto leaves = [&](int k) { return hangs(k) && fades(robot, k) && (!others || table.message(k).subtree > 1); };
+  const auto leaves = [&](int k) { return hangs(k) && fades(robot, k); };
   const auto lost = first_of(robot.children, leaves);
   if (lost != robot.children.end()) {
     self.lost_child = table.position(*lost);
     self.dangling_ticks = static_cast<std::uint16_t>(robot.params.rounds(robot.params.pursue_for_drives));
   } else if (self.dangling_ticks > 0) {
-    // In a large tree it waits there for the branch: if it became a spare, the chain above it would dissolve.
-    const bool done = !meets && norm(self.lost_child) < near_enough;
+    const bool done = norm(self.lost_child) < near_enough;
     self.dangling_ticks =
         done ? std::uint16_t{0} : static_cast<std::uint16_t>(std::max(self.dangling_ticks - robot.elapsed_ticks, 0));
   }
@@ -39,7 +35,7 @@ void watch_children(HealingRobot& robot) noexcept {
 
 void watch_branch(HealingRobot& robot) noexcept {
   watch_children(robot);
-  robot.carries_on = robot.self.dangling_ticks > 0 && (robot.useful_children == 0 || robot.meets_at_the_dead);
+  robot.carries_on = robot.self.dangling_ticks > 0 && robot.useful_children == 0;
 }
 
 }  // namespace banyan

@@ -8,7 +8,6 @@ namespace banyan {
 namespace {
 
 constexpr int hesitate_ticks = 25;      // beyond I
-constexpr int witness_ticks = 20;       // of the time for an answer
 constexpr float well_in_range = 0.85F;  // of C: a worker farther away may only have gone out of range
 
 // I heard the worker, and its parent is gone, too, or has more workers below than it can remember.
@@ -18,14 +17,6 @@ bool takes_charge(const HealingRobot& robot, const Task& task) noexcept {
   if (holder < 0 || !fades(robot, holder) || table.range(holder) > well_in_range) return false;
   const int parent = table.find(up_of(table.message(holder)));
   return parent < 0 || fades(robot, parent) || table.message(parent).subtree_workers > task_capacity;
-}
-
-// The worker stood at its target, in range, and nobody is in between: there is nothing to wait for, and less of an
-// answer to be expected. Where packets get lost, silence alone says less.
-bool has_witnessed(const HealingRobot& robot, const Task& task) noexcept {
-  const int holder = robot.table().find(task.holder);
-  return holder >= 0 && robot.tie_ticks == 0 && task.reached && fades(robot, holder) &&
-         robot.table().range(holder) <= longest_link && is_in_the_clear(robot, holder);
 }
 
 // The child has taken another parent, and its workers along, or serves none any more.
@@ -60,11 +51,6 @@ void doubt(HealingRobot& robot) noexcept {
     int child = robot.table().find(task.via);
     if (has_left(robot, child)) task.via = nobody;
     if (task.silent || task.holder == nobody || task.age_ticks <= fading_ticks(robot)) continue;
-    if (has_witnessed(robot, task)) {
-      raise_doubt(robot, task);
-      task.age_ticks = static_cast<std::uint16_t>(task.age_ticks + witness_ticks);
-      continue;
-    }
     if (task.via == nobody && takes_charge(robot, task)) task.via = task.holder;
     if (task.via == nobody) continue;
     // While that child lives, news of the worker comes through it, in turn with news of many others. Old news is no

@@ -52,7 +52,7 @@ void guard_links(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept
     return !robot.is_tree_neighbor(k) && (tied_to_me || (!lets_go && (untied || waits)));
   };
   // Where no packets get lost, no others can hold me.
-  Rows rows = robot.tie_ticks + robot.hidden_ticks > 0 || untied ? table.all() : table.untied;
+  Rows rows = robot.tie_ticks > 0 || untied ? table.all() : table.untied;
   for (const int k : {robot.hold, robot.gap})
     if (k >= 0) rows.set(k, true);
   rows.for_each([&](int k) {

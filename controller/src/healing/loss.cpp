@@ -104,7 +104,6 @@ void HealingRobot::take_patience() noexcept {
   else if (self.phase < Phase::grow_tree || is_thin(self)) tie_ticks = longest_silence_ticks;
   else tie_ticks = std::max(liveness_ticks(), silences * self.usual_silence);
   if (has_bursts()) tie_ticks = std::max(tie_ticks, loss_ticks);
-  hidden_ticks = params.line_of_sight && self.neighbors_at_start > 0 ? longest_silence_ticks : 0;
 }
 
 // A robot heard a tick ago is still there, so that its silence now is a lost packet. One silent for

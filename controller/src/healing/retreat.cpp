@@ -46,22 +46,6 @@ int way_home(const HealingRobot& robot) noexcept {
   });
 }
 
-// In a large tree the straight way to the root leads past the rest of it. The robot above the dead one is near where
-// that one stood.
-bool seeks_parent(const HealingRobot& robot) noexcept {
-  const int k = robot.parent;
-  return robot.meets_at_the_dead && k >= 0 && !robot.table().alive(k) && robot.self.phase == Phase::grow_tree &&
-         robot.table().age(k) <= robot.params.rounds(robot.params.pursue_for_drives);
-}
-
-// Beside that place, on the side of the root: straight on, the dead body would hide the two robots from each other.
-Vec2 beside_parent(const HealingRobot& robot) noexcept {
-  constexpr float beside_body = 0.4F;  // of C
-  const Vec2 at = robot.table().position(robot.parent);
-  const Vec2 left = left_of(unit(at)) * beside_body;
-  return cross(at, robot.self.root_at) < 0.0F ? at - left : at + left;
-}
-
 }  // namespace
 
 bool is_left_waiting(const HealingRobot& robot) noexcept {
@@ -89,17 +73,14 @@ bool is_retreating(const HealingRobot& robot, bool regroups) noexcept {
   const HealingState& self = robot.self;
   if (!robot.params.heals() || !self.root_known) return false;
   if (robot.is_root()) return is_alone(robot);
-  if (!regroups && missed_tie(robot) >= 0) return false;  // it is behind something near by
-  return self.orphan_ticks > lost_ticks || is_cut_off(robot) || regroups || seeks_parent(robot);
+  return self.orphan_ticks > lost_ticks || is_cut_off(robot) || regroups;
 }
 
 Vec2 retreat_motion(const HealingRobot& robot, bool regroups) noexcept {
   constexpr float near_enough = 0.2F;  // of C
   if (is_alone(robot)) return search(robot);
   const int k = is_cut_off(robot) || regroups ? -1 : way_home(robot);
-  const Vec2 goal = seeks_parent(robot) ? beside_parent(robot)
-                    : k >= 0            ? robot.table().position(k)
-                                        : robot.self.root_at;
+  const Vec2 goal = k >= 0 ? robot.table().position(k) : robot.self.root_at;
   if (norm(goal) < near_enough) return avoidance(robot);
   return bypass(robot, goal) + avoidance(robot);
 }

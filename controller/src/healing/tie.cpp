@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "banyan/controller/core/search.hpp"
 #include "banyan/controller/healing/healing.hpp"
 
 namespace banyan {
@@ -30,23 +29,12 @@ bool may_depend(const HealingRobot& robot, int k) noexcept {
 
 bool may_be_tied(const HealingRobot& robot, int k) noexcept {
   const int longest_ticks = std::max(longest_silence_ticks, robot.loss_ticks);
-  const bool has_ties = robot.tie_ticks + robot.hidden_ticks > 0 || may_start_thin(robot);
+  const bool has_ties = robot.tie_ticks > 0 || may_start_thin(robot);
   return has_ties && robot.table().age(k) <= longest_ticks && may_depend(robot, k);
 }
 
 bool is_tie(const HealingRobot& robot, int k) noexcept {
-  const int age = robot.table().age(k);
-  if (age > std::max(robot.tie_ticks, robot.hidden_ticks) || !may_depend(robot, k)) return false;
-  return age <= robot.hidden_ticks || is_in_the_clear(robot, k);
-}
-
-int missed_tie(const HealingRobot& robot) noexcept {
-  if (robot.hidden_ticks == 0) return -1;
-  const TreeTable& table = robot.table();
-  return least_of(table.size(), not_counted, [&](int k) {
-    const bool missed = !table.alive(k) && table.age(k) <= robot.hidden_ticks;
-    return missed && (k == robot.up() || may_depend(robot, k)) ? table.range(k) : not_counted;
-  });
+  return robot.table().age(k) <= robot.tie_ticks && may_depend(robot, k) && is_in_the_clear(robot, k);
 }
 
 float strayed_way(const HealingRobot& robot, int k) noexcept {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "banyan/controller/core/edge_frame.hpp"
 #include "banyan/controller/core/function_ref.hpp"
@@ -107,32 +106,9 @@ void hear_of_corners(const TreeRobot& robot, Corners& corners) noexcept {
     for (const int k : *below) hear(k);
 }
 
-// Where to go when the tree falls silent: a robot of the tree goes to where it stood, a spare to where
-// the nearest robot of the tree was.
+// Where to go when the parent falls silent: to where I stood.
 void note_contact(const TreeRobot& robot, Corners& corners) noexcept {
-  TreeState& self = robot.self;
-  const TreeTable& table = robot.table();
-  if (robot.parent >= 0) {
-    if (table.age(robot.parent) == 0) corners.seen_from = {};
-    return;
-  }
-  // The tree is where the root's newest sequence number comes from.
-  int nearest = -1;
-  int hops = std::numeric_limits<int>::max();
-  float range = 0.0F;
-  for (const Rows* const rows : {&table.nearest, &table.all()}) {
-    if (nearest >= 0) break;
-    rows->for_each([&](int k) {
-      const int hops_k = table.message(k).tree_hops;
-      if (hops_k > hops || table.age(k) > 0 || (hops_k == hops && table.range(k) >= range)) return;
-      nearest = k;
-      hops = hops_k;
-      range = table.range(k);
-    });
-  }
-  if (nearest < 0) return;
-  const TreeStanding& m = table.message(nearest);
-  if (m.epoch == self.epoch && is_newer(m.seqno, self.seqno)) corners.seen_from = table.position(nearest);
+  if (robot.parent >= 0 && robot.table().age(robot.parent) == 0) corners.seen_from = {};
 }
 
 // How near obstacles come to the line of sight to a neighbour; sight_width if they do not.
@@ -140,24 +116,6 @@ float room_beside(const TreeRobot& robot, const Corners& corners, Vec2 neighbor)
   float room = sight_width;
   for_each_threat(robot, corners, neighbor, [&](const Threat& t) { room = std::min(room, t.room); });
   return room;
-}
-
-// The spares are around the root, which must not lose sight of the last of them behind a corner. Index of
-// the spare that the root sees best; -1 if that one is in no danger, and for all other robots.
-int last_in_sight(const TreeRobot& robot, const Corners& corners) noexcept {
-  if (!robot.is_root() || corners.landmarks.size == 0) return -1;
-  const TreeTable& table = robot.table();
-  int best = -1;
-  float best_length = 0.0F;
-  for (int k = 0; k < table.size(); ++k) {
-    if (!table.alive(k) || table.message(k).role != Role::spare) continue;
-    const float room = room_beside(robot, corners, table.position(k));
-    if (room >= sight_width) return -1;
-    if (best >= 0 && room <= best_length) continue;
-    best = k;
-    best_length = room;
-  }
-  return best;
 }
 
 // Whether I hold back a child that has to go on.
@@ -294,7 +252,6 @@ void keep_sight(const TreeRobot& robot, const Corners& corners, Guard& guard) no
     });
   };
   for_each_edge_of_both_trees(robot, keep);
-  if (const int k = last_in_sight(robot, corners); k >= 0) keep(k);
 }
 
 Vec2 clear_sight(const TreeRobot& robot, const Corners& corners) noexcept {
@@ -312,10 +269,7 @@ Vec2 clear_sight(const TreeRobot& robot, const Corners& corners) noexcept {
 
 bool is_pinned(const TreeRobot& robot, const Corners& corners, float towing_start) noexcept {
   if (robot.self.want <= 0.0F) return false;
-  if (robot.is_root()) {
-    const int k = last_in_sight(robot, corners);
-    return k >= 0 && robot.table().range(k) > pin_shortest;
-  }
+  if (robot.is_root()) return false;
   if (!robot.parent_alive() || (!robot.self.is_worker && !is_towed(robot, corners, towing_start))) return false;
   return robot.table().range(robot.parent) > pin_shortest &&
          room_beside(robot, corners, robot.table().position(robot.parent)) < pin_width;

@@ -22,26 +22,20 @@ bool somebody_between(const TreeRobot& robot, int k) noexcept {
 }
 
 // Fixed once an epoch: if recomputed every tick, motion would leave robots in local minima, with no candidate.
-void take_label(TreeRobot& robot, float reach) noexcept {
-  constexpr int wait_ticks = 2;      // gives nearer labelled neighbours time to be heard
-  constexpr int wait_far_ticks = 6;  // if all heard so far are near the edge of the range,
-  constexpr float far_off = 0.85F;   // of C: the next may be heard any moment
+void take_label(TreeRobot& robot) noexcept {
+  constexpr int wait_ticks = 2;  // gives nearer labelled neighbours time to be heard
   TreeState& self = robot.self;
   const TreeTable& table = robot.table();
   int best = -1;
   std::uint16_t best_label = unknown_label;
-  float nearest = 1.0F;
   for (int k = 0; k < table.size(); ++k) {
     const TreeStanding& m = table.message(k);
     if (!table.alive(k) || m.epoch != self.epoch || m.label == unknown_label) continue;
-    if (table.range(k) > reach) continue;
-    nearest = std::min(nearest, table.range(k));
     const std::uint16_t label = label_below(m.label, table.range(k));
     if (label < best_label) best_label = label, best = k;
   }
   if (best < 0) return;
-  const bool far = nearest > far_off;
-  if (self.label_wait_ticks++ < (far ? wait_far_ticks : wait_ticks) && somebody_between(robot, best)) return;
+  if (self.label_wait_ticks++ < wait_ticks && somebody_between(robot, best)) return;
   self.label = best_label;
   self.flood_parent = table.id(best);
 }
@@ -84,14 +78,14 @@ std::uint16_t label_below(std::uint16_t label, float range) noexcept {
       std::min<std::uint32_t>(std::uint32_t{label} + edge_label(range), unknown_label - 1));
 }
 
-void update_label(TreeRobot& robot, float reach) noexcept {
+void update_label(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
   if (self.phase == Phase::init) return;
   if (robot.is_root()) {
     // A root by hand-over keeps its label until the epoch that it opens.
     if (self.phase == Phase::start_tree) self.label = 0;
   } else if (self.label == unknown_label) {
-    take_label(robot, reach);
+    take_label(robot);
   }
   if (self.phase == Phase::start_tree && self.label != unknown_label) echo(robot);
 }

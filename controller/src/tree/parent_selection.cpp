@@ -15,16 +15,11 @@ constexpr int orphan_still_ticks = 5;
 constexpr int orphan_attach_ticks = 20;
 constexpr int drafted_attach_ticks = 4;
 
-// The best candidate by the rule, -1 if none. `in_tree`: only committed robots that are not spares.
-int choose_parent(const TreeRobot& robot, const ParentRule& rule, bool in_tree) noexcept {
-  const TreeTable& table = robot.table();
+// The best candidate by the rule, -1 if none.
+int choose_parent(const TreeRobot& robot, const ParentRule& rule) noexcept {
   int best = -1;
-  for (int k = 0; k < table.size(); ++k) {
-    if (!is_candidate(robot, k)) continue;
-    const TreeStanding& m = table.message(k);
-    if (in_tree && (!m.committed || m.role == Role::spare)) continue;
-    if (best < 0 || rule.prefers(k, best)) best = k;
-  }
+  for (int k = 0; k < robot.table().size(); ++k)
+    if (is_candidate(robot, k) && (best < 0 || rule.prefers(k, best))) best = k;
   return best;
 }
 
@@ -53,7 +48,7 @@ int nearest_committed(const TreeRobot& robot) noexcept {
 void join(TreeRobot& robot, const ParentRule& rule) noexcept {
   TreeState& self = robot.self;
   if (self.label == unknown_label || !rule.may_join) return;
-  int k = choose_parent(robot, rule, false);
+  int k = choose_parent(robot, rule);
   if (k < 0) {
     if (self.search_ticks < UINT16_MAX) ++self.search_ticks;
     if (self.search_ticks > patience_flood_ticks) k = flood_parent(robot);
@@ -63,14 +58,9 @@ void join(TreeRobot& robot, const ParentRule& rule) noexcept {
   if (k >= 0) take_parent(robot, k);
 }
 
-// The parent has been silent for longer than I: take another one, or keep it and drive to where it should be.
-void repair(TreeRobot& robot, const ParentRule& rule) noexcept {
-  TreeState& self = robot.self;
-  if (self.role == Role::spare) return leave_tree(robot);
-  const int k = choose_parent(robot, rule, true);
-  if (k < 0) return;
-  take_parent(robot, k);
-  ++self.tally.repairs;
+// Of a spare: nobody depends on it any more.
+bool is_superfluous(const TreeRobot& robot) noexcept {
+  return robot.self.phase >= Phase::grow_tree && robot.children.size == 0;
 }
 
 // The neighbour through which the rooted tree is nearest: a robot of the tree, or a free spare that can be
@@ -240,8 +230,7 @@ void select_parent(TreeRobot& robot, const ParentRule& rule) noexcept {
     self.committed = true;
   } else if (self.phase >= Phase::select_parent && !hangs_on_heir(robot)) {
     if (self.parent == nobody) join(robot, rule);
-    else if (!robot.parent_alive()) repair(robot, rule);
-    else if (self.role == Role::spare && self.phase >= Phase::grow_tree && robot.children.size == 0) leave_tree(robot);
+    else if (self.role == Role::spare && (!robot.parent_alive() || is_superfluous(robot))) leave_tree(robot);
     reattach_orphan(robot);
   }
   update_seqno(robot);

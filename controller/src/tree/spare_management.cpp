@@ -59,16 +59,12 @@ void own_edge(TreeRobot& robot, const EdgeRule& rule) noexcept {
   TreeState& self = robot.self;
   if (self.grant != nobody) follow_grant(robot);
   if (!robot.parent_alive()) return end_grant(self);
-  const TreeStanding& parent = robot.table().message(robot.parent);
-  const bool parent_awaits = parent.need == Need::await && parent.grant != nobody;
   switch (self.need) {
     case Need::no_need:
       if (rule.needs_spare()) self.need = Need::need;
       break;
     case Need::need:
-      // Two insertions next to each other would leave the lower one without its parent.
-      if (parent_awaits) self.need = Need::await;
-      else if (!rule.needs_spare()) self.need = Need::no_need;
+      if (!rule.needs_spare()) self.need = Need::no_need;
       else if (self.phase == Phase::grow_tree) {
         self.grant = best_request(robot);
         self.grant_ticks = 0;
@@ -76,7 +72,7 @@ void own_edge(TreeRobot& robot, const EdgeRule& rule) noexcept {
       }
       break;
     case Need::await:
-      if (self.grant == nobody && !parent_awaits) self.need = Need::no_need;
+      if (self.grant == nobody) self.need = Need::no_need;
       break;
   }
 }

@@ -102,28 +102,5 @@ TEST(Convoy, ATreeThatHasArrivedKeepsTheEdgesOfTheOldOne) {
   }
 }
 
-// Over a longer link comes a label with which no parent is found.
-TEST(Convoy, ARobotOfATreeThatHasArrivedWaitsForALabelOverALinkThatMayBeAnEdge) {
-  const auto label_after = [](int ticks, bool member, std::uint16_t want) {
-    ConvoyBench bench = grown<Convoy>();
-    bench.state.phase = Phase::start_tree;
-    bench.state.label = unknown_label;
-    bench.state.parent = nobody;
-    if (member) {
-      ConvoyMessage& worker = bench.put_child(4, {0.25F, 0}, Role::worker);
-      worker.label = unknown_label;
-      worker.subtree_workers = 1;
-      worker.want = want;
-    }
-    bench.put(9, {0.975F, 0}).label = 0;
-    bench.steps(ticks);
-    return bench.state.label;
-  };
-  EXPECT_EQ(label_after(20, true, 0), unknown_label);
-  EXPECT_EQ(label_after(40, true, 0), 250) << "not for ever";
-  EXPECT_EQ(label_after(20, true, 128), 250) << "its worker has not arrived";
-  EXPECT_EQ(label_after(20, false, 0), 250) << "a spare needs no parent";
-}
-
 }  // namespace
 }  // namespace banyan

@@ -40,46 +40,6 @@ TEST_F(ConvoyChain, AJunctionStaysUntilItsEdgesAreNearTheirLimit) {
   EXPECT_GT(norm(motion()), norm(waits) + 0.2F);
 }
 
-// Child 3 of a worker at its target is drawn to one side. Once it is stuck it needs the worker's parent beside itself.
-TEST_F(ConvoyChain, AWorkerAtItsTargetSaysWhereTheChildIsThatIsStuck) {
-  bench.state.role = Role::worker;
-  bench.state.is_worker = true;
-  bench.send({0.025F, 0.0F});
-  bench.say(3).pull_y = static_cast<std::int16_t>(pull_unit);
-  Vec2 pull;
-  EXPECT_TRUE(passes_pull_on(bench.tick(), pull));
-  EXPECT_LT(distance(pull, {0.0F, -1.0F}), 1e-5F);
-  bench.state.stalled_ticks = 51;
-  EXPECT_TRUE(passes_pull_on(bench.tick(), pull));
-  EXPECT_LT(distance(pull, {1.0F, 0.0F}), 1e-5F);
-  bench.state.root_size = 451;
-  EXPECT_TRUE(passes_pull_on(bench.tick(), pull));
-  EXPECT_LT(distance(pull, {0.0F, -1.0F}), 1e-5F) << "rule 16 helps it";
-}
-
-// Child 3, a worker at its target, is between me and a robot below it, which is stuck: its body is in my way.
-TEST_F(ConvoyChain, PastAWorkerAtItsTargetAStuckRobotGoesRound) {
-  const auto way = [&](float x, float pull_y) {
-    bench.move(3, {x, 0.0F});
-    auto& worker = bench.say(3);
-    worker.serves = 3;
-    worker.child_count = 1;
-    worker.pull_x = static_cast<std::int16_t>(-pull_unit);  // away from me
-    worker.pull_y = static_cast<std::int16_t>(pull_y * pull_unit);
-    auto robot = bench.tick();
-    bench.state.task_count = 1;
-    bench.state.tasks[0].serves = 3;
-    bench.state.tasks[0].target = {x, 0.0F};
-    bench.state.tasks[0].unlocated = false;
-    return towed_motion(robot);
-  };
-  EXPECT_GT(way(0.16F, 0.2F).x, 0.3F);
-  bench.state.stalled_ticks = 51;
-  EXPECT_LT(way(0.16F, 0.2F).y, -0.5F);
-  EXPECT_GT(way(0.16F, -0.2F).y, 0.5F);
-  EXPECT_GT(way(0.6F, 0.2F).x, 0.3F) << "it is not there yet";
-}
-
 // A worker (id 1) whose edge is long, near an edge that waits in vain for a spare.
 class WorkerWhereRobotsAreShort : public ConvoyChain {
  protected:
@@ -170,36 +130,6 @@ TEST(Convoy, ACalledSpareKeepsUpWithTheTree) {
   EXPECT_LT(towards_tree(), 0.5F) << "in a thin start nobody waits for others to move";
   bench.move(2, {0.925F, 0.0F});
   EXPECT_GT(towards_tree(), 0.5F);
-}
-
-// Its target is ahead, its hold behind it.
-TEST(Convoy, InAThinStartAWorkerThatLosesSightOfItsHoldGoesBackToIt) {
-  const auto goes = [](int neighbors_at_start, int silent_ticks) {
-    ConvoyBench bench;
-    bench.state.turn = 200;
-    bench.state.neighbors_at_start = static_cast<std::uint8_t>(neighbors_at_start);
-    bench.state.epoch = 1;
-    bench.state.phase = Phase::start_tree;
-    bench.state.is_worker = true;
-    bench.state.role = Role::worker;
-    bench.state.pull = {1.0F, 0.0F};
-    bench.send({2.5F, 0.0F});
-    bench.put(2, {-0.5F, 0.0F});
-    bench.put(3, {0.0F, 0.5F}).parent = 9;
-    bench.state.hold = 2;
-    bench.tick();
-    bench.silence(2);
-    for (int k = 1; k < silent_ticks; ++k) bench.tick();
-    auto robot = bench.tick();
-    const int k = robot.table().find(2);
-    robot.hold = k >= 0 && robot.table().alive(k) ? k : -1;
-    return towed_motion(robot).x;
-  };
-  EXPECT_GT(goes(2, 2), 0.5F) << "a packet may get lost";
-  EXPECT_LT(goes(2, 3), -0.5F);
-  EXPECT_LT(goes(2, 100), -0.5F);
-  EXPECT_GT(goes(2, 101), 0.5F) << "it has gone";
-  EXPECT_GT(goes(0, 3), 0.5F) << "in a crowd there are others";
 }
 
 }  // namespace

@@ -92,28 +92,6 @@ TEST(Doubt, AParentMissesItsChild) {
   EXPECT_TRUE(said);
 }
 
-// It stood at its target, and nobody is in between: the parent need not wait for somebody to move on.
-TEST(Doubt, ADeathThatIsWitnessedIsDoubtedAtOnce) {
-  struct Case {
-    const char* what;
-    bool reached, in_between, packets_get_lost, at_once;
-  };
-  for (const Case c : {Case{"at its target", true, false, false, true}, Case{"on its way", false, false, false, false},
-                       Case{"hidden", true, true, false, false}, Case{"packets get lost", true, false, true, false}}) {
-    ForgetfulWatch watch;
-    watch.bench.params.line_of_sight = true;
-    watch.worker({0.0F, 0.75F}, 1).task_reached = c.reached;
-    if (c.in_between) watch.bench.put(30, {0.05F, 0.5F});
-    watch.hear_worker(5);
-    if (c.packets_get_lost) watch.bench.state.usual_silence = 2;
-    watch.bench.silence(worker_id);
-    watch.hear_root(whole(watch.bench.params.liveness_rounds) + 1);
-    EXPECT_EQ(watch.task().silent, c.at_once) << c.what;
-    watch.hear_root(doubt_ticks(watch));
-    EXPECT_TRUE(watch.task().silent || watch.bench.state.tally.replacements == 1) << c.what;
-  }
-}
-
 TEST(Doubt, AWitnessMissesAWorkerWhoseParentIsSilentToo) {
   for (const bool parent_lives : {false, true}) {
     ForgetfulWatch watch;

@@ -31,10 +31,8 @@ TEST(Retreat, WhoHearsOfNoRootDrivesToWhereItWas) {
 
 // Where packets get lost silence says less, and least before the first tree.
 TEST(Retreat, ThePatienceFollowsTheSilencesThatAreUsual) {
-  const auto ticks_until = [](std::uint8_t usual_silence, Phase phase, bool thin_start = false,
-                              bool line_of_sight = false) {
+  const auto ticks_until = [](std::uint8_t usual_silence, Phase phase, bool thin_start = false) {
     Watch watch({0.975F, 0.0F});
-    watch.bench.params.line_of_sight = line_of_sight;
     watch.bench.state.turn = 200;  // so that it does not look now whether its start is thin
     watch.bench.state.neighbors_at_start = thin_start ? 2 : 0;
     watch.hear_root(50);
@@ -57,50 +55,6 @@ TEST(Retreat, ThePatienceFollowsTheSilencesThatAreUsual) {
   EXPECT_EQ(ticks_until(30, Phase::start_tree), ticks + 2 * 100 - 2 * whole(convoy_defaults().liveness_rounds));
   EXPECT_EQ(ticks_until(0, Phase::grow_tree, true), ticks);
   EXPECT_EQ(ticks_until(30, Phase::grow_tree, true), ticks_until(30, Phase::start_tree));
-  EXPECT_EQ(ticks_until(0, Phase::grow_tree, false, true), ticks);
-  EXPECT_EQ(ticks_until(0, Phase::grow_tree, true, true), 100) << "its parent may only be hidden";
-}
-
-// With more targets than a robot remembers the straight way to the root may lead past the rest of the tree.
-TEST(Retreat, WithManyTargetsAnOrphanFirstSeeksThePlaceOfItsParent) {
-  const auto course = [](bool many, float root_y, int ticks) {
-    Watch watch({-0.95F, root_y});
-    ConvoyBench& bench = watch.bench;
-    bench.state.turn = 200;
-    auto& m = bench.put(3, {0.75F, 0.0F});
-    m = bench.say(root_id);
-    m.id = 3;
-    m.role = Role::connector;
-    m.parent = root_id;
-    m.depth = 2;
-    m.label = 10;
-    watch.hear_root(2);
-    auto& state = bench.state;
-    state.is_worker = true;
-    state.role = Role::worker;
-    state.parent = 3;
-    state.committed = true;
-    watch.hear_root(2);
-    state.root_at = {-3.0F, root_y};
-    bench.silence(3);
-    bench.silence(root_id);
-    state.forgets = many;
-    state.root_size = 300;
-    bench.steps(ticks);
-    state.parent = 3;
-    auto robot = bench.tick();
-    index_neighbors(robot);
-    robot.meets_at_the_dead = has_many_targets(robot);
-    EXPECT_TRUE(is_retreating(robot, false));
-    return retreat_motion(robot, false);
-  };
-  const int soon = convoy_defaults().rounds(0.5F);
-  EXPECT_LT(course(false, 1.0F, soon).x, -0.5F) << "else to the root";
-  const Vec2 left = course(true, 1.0F, soon);
-  EXPECT_GT(left.x, 0.5F);
-  EXPECT_GT(left.y, 0.2F) << "past the dead robot on the side of the root";
-  EXPECT_LT(course(true, -1.0F, soon).y, -0.2F);
-  EXPECT_LT(course(true, 1.0F, convoy_defaults().rounds(1.5F)).x, -0.5F) << "in vain";
 }
 
 TEST(Retreat, TheSilentHoldNobodyBack) {

@@ -54,30 +54,5 @@ TEST(Tie, WhoHasAnotherParentDependsOnMeOnlyIfIMayDependOnIt) {
   EXPECT_FALSE(may_depend_on_me(false, nothing, 2));
 }
 
-// Robot 7, a child, has not been heard for two seconds, and robot 2 is near the line to it.
-TEST(Tie, InAThinStartWithLineOfSightWhoIsSilentMayOnlyBeHidden) {
-  const auto is_missed = [](int neighbors_at_start, bool line_of_sight, int ticks) {
-    BenchOf<Convoy> bench;
-    bench.state.turn = 200;
-    bench.state.neighbors_at_start = static_cast<std::uint8_t>(neighbors_at_start);
-    bench.params.line_of_sight = line_of_sight;
-    bench.state.parent = 2;
-    bench.put(2, {0.5F, 0.05F});
-    bench.put_child(speaker, {0.95F, 0.0F}, Role::worker);
-    bench.tick();
-    bench.silence(speaker);
-    for (int k = 1; k < ticks; ++k) bench.tick();
-    const auto robot = bench.tick();
-    const int k = robot.table().find(speaker);
-    EXPECT_EQ(k >= 0 && is_tie(robot, k), missed_tie(robot) >= 0);
-    return missed_tie(robot) == k && k >= 0;
-  };
-  EXPECT_TRUE(is_missed(2, true, 20));
-  EXPECT_TRUE(is_missed(2, true, 100));
-  EXPECT_FALSE(is_missed(2, true, 101)) << "it has gone";
-  EXPECT_FALSE(is_missed(2, false, 20)) << "nothing hides it";
-  EXPECT_FALSE(is_missed(0, true, 20)) << "in a crowd others hear it";
-}
-
 }  // namespace
 }  // namespace banyan

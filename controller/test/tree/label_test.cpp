@@ -34,16 +34,6 @@ TEST(Label, IsTheSmallestSumOfLabelAndRangeAndTakenOnce) {
   EXPECT_EQ(bench.state.label, 192) << "fixed for the epoch";
 }
 
-TEST(Label, WaitsLongerWhenAllAreFar) {
-  ConvoyBench bench = starting();
-  bench.put(9, {0.95F, 0}).label = 0;
-  bench.put(5, {0.4F, 0.1F});  // no label yet
-  bench.steps(6);
-  EXPECT_EQ(bench.state.label, unknown_label);
-  bench.step();
-  EXPECT_EQ(bench.state.label, 243);
-}
-
 // Along a line nobody stands between: the flood need not rest at each hop.
 TEST(Label, WhoIsNotPatientWaitsOnlyForWhomItHears) {
   const auto ticks_until_labelled = [](Vec2 other, float labelled) {
@@ -59,7 +49,6 @@ TEST(Label, WhoIsNotPatientWaitsOnlyForWhomItHears) {
   EXPECT_EQ(ticks_until_labelled({-0.5F, 0}, 0.5F), 1) << "on the other side";
   EXPECT_EQ(ticks_until_labelled({0.7F, 0}, 0.5F), 1) << "farther than the one that has a label";
   EXPECT_EQ(ticks_until_labelled({0.25F, 0.1F}, 0.5F), 3);
-  EXPECT_EQ(ticks_until_labelled({0.25F, 0.1F}, 0.95F), 7);
 }
 
 TEST(Label, OfAnotherEpochCountsNothing) {

@@ -127,23 +127,6 @@ ConvoyBench working() {
   return bench;
 }
 
-// By this rule alone: convoy's others look for a new parent sooner.
-TEST(Repair, ASilentParentIsReplacedOnceTheLivenessPeriodIsOver) {
-  ConvoyBench bench = working();
-  const auto tick = [&] {
-    auto robot = bench.tick();
-    update_role(robot);
-    select_parent(robot, {.may_join = true, .prefers = [](int, int) { return false; }});
-  };
-  tick();
-  bench.silence(5);
-  for (int k = 0; k < whole(bench.params.liveness_rounds); ++k) tick();
-  EXPECT_EQ(bench.state.parent, 5);
-  tick();
-  EXPECT_EQ(bench.state.parent, 6);
-  EXPECT_EQ(bench.state.tally.repairs, 1U);
-}
-
 TEST(Repair, WithoutReplacementTheParentIsKept) {
   ConvoyBench bench = working();
   bench.step();

@@ -120,18 +120,6 @@ TEST_F(Owner, EndsTheGrantWhenTheSpareFallsSilentOrThinksBetter) {
   EXPECT_EQ(bench.state.grant, nobody);
 }
 
-TEST_F(Owner, WaitsWhileItsParentInsertsAboveItself) {
-  bench.say(5).need = Need::await;
-  bench.say(5).grant = 30;
-  spare(20, {half, 0});
-  bench.step();
-  EXPECT_EQ(bench.step().message.need, Need::await);
-  EXPECT_EQ(bench.state.grant, nobody);
-  bench.say(5).need = Need::no_need;
-  bench.say(5).grant = nobody;
-  EXPECT_EQ(bench.steps(3).message.grant, 20);
-}
-
 TEST_F(Owner, PassesUpHowFarAChildHasToTravel) {
   bench.call_back();
   auto& child = bench.put(7, {-0.5F, 0});

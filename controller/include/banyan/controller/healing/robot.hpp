@@ -39,10 +39,8 @@ struct HealingRobot : TreeRobot {
   HealingState& self;
   int gap = -1;       // index of a deaf neighbour that nothing ties me to (mutual.cpp)
   int tie_ticks = 0;  // for so long a silent neighbour may be there and depend on me (tie.hpp); 0: no packets get lost
-  int hidden_ticks = 0;            // for so long it may be hidden and depend on me: in thin starts with line of sight
-  RobotId held;                    // the hold of the last step
+  RobotId held;       // the hold of the last step
   bool target_strays = false;      // it is not where it would be if it stood still and my wheels had not slipped
-  bool meets_at_the_dead = false;  // in a large tree: the ends of a torn edge come together where the dead robot stood
   bool passes_targets_on = false;  // robots hand their targets over to others again and again
 };
 

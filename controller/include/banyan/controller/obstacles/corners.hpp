@@ -46,8 +46,8 @@ struct KnownBodies {
 struct Corners {
   Landmarks landmarks;
   KnownBodies bodies;
-  Vec2 seen_from;       // C, own frame: where I was when I last heard my parent; a spare: where the tree was
-  bool pinned = false;  // a corner is about to cut the edge to my parent
+  Vec2 seen_from;                                             // C, own frame: where I was when I last heard my parent
+  bool pinned = false;                                        // a corner is about to cut the edge to my parent
   std::array<CornerStanding, neighbor_capacity> standings{};  // beside the neighbour table
 
   [[nodiscard]] const CornerStanding& of(int k) const noexcept { return standings[static_cast<std::size_t>(k)]; }

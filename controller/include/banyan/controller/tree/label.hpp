@@ -3,14 +3,13 @@
 // root learns that all robots have one (protocol 4, 5).
 #pragma once
 
-#include <limits>
 
 #include "banyan/controller/tree/robot.hpp"
 
 namespace banyan {
 
 // `reach`, C: no label is taken from robots farther away.
-void update_label(TreeRobot& robot, float reach = std::numeric_limits<float>::max()) noexcept;
+void update_label(TreeRobot& robot) noexcept;
 
 // Length of an edge in the label's unit, 1 / per_range of C; at least 1, so that a label grows along every edge.
 [[nodiscard]] std::uint16_t edge_label(float range) noexcept;
