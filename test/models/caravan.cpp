@@ -292,13 +292,19 @@ int caravan_is_promised(int me, const End* self, int id) {
 
 namespace {
 
+constexpr RobotId another = largest_caravan;  // target, whose place nobody else knows; or robot, out of reach
+
 Vec2 target_of(int there) { return there >= 0 ? home(there) : Vec2{0.25F, 0.05F}; }
+
+Role role_of(int id, const Holding& h) {
+  return h.root == id ? Role::root : h.serving || h.busy ? Role::worker : Role::spare;
+}
 
 void load(int me, const Holding& self, int first, int there) {
   State& s = Bench::self();
   s.root = s.newest = {self.sequence, to_id(self.root)};
-  s.serves = self.serving ? to_id(first) : nobody;
-  s.role = self.root == me ? Role::root : self.serving ? Role::worker : Role::spare;
+  s.serves = self.serving ? to_id(first) : self.busy ? another : nobody;
+  s.role = role_of(me, self);
   s.unfit = self.unfit != 0;
   s.token_count = 2;
   s.tokens[0] = {.name = caravan::root_name,
@@ -318,7 +324,8 @@ void read(const State& s, Holding& self) {
   self.holder = from_id(s.tokens[1].holder);
   self.beat = s.tokens[1].beat;
   self.reached = s.tokens[1].reached;
-  self.serving = s.serves != nobody;
+  self.serving = s.serves == s.tokens[1].name;
+  self.busy = s.serves == another;
   self.unfit = s.unfit;
 }
 
@@ -340,14 +347,14 @@ void caravan_token_step(int me, Holding* self, int id, const Holding* heard, Eve
     Bench::remember(self->holder, home(self->holder) - home(me), said, within_lease);
   }
   if (events.waits_in_vain || events.drives_in_vain) s.nearest = 0.0F;
-  if (events.waits_in_vain) s.stuck_rounds = very_long, s.call = {.source = to_id(largest_caravan), .hops = 1};
+  if (events.waits_in_vain) s.stuck_rounds = very_long, s.call = {.source = another, .hops = 1};
   if (events.drives_in_vain) s.effort = 2.0F;  // C
   s.leaving = events.leaving;
   if (id >= 0) {
     // One that is to take over a target is there.
     Message& m = Bench::put(id, events.leaving && self->serving ? s.tokens[1].place : Vec2{0.1F, 0});
     m.root = {heard->sequence, to_id(heard->root)};
-    m.role = heard->root == id ? Role::root : heard->serving ? Role::worker : Role::spare;
+    m.role = role_of(id, *heard);
     m.token = {
         .name = to_id(first), .holder = to_id(heard->holder), .beat = heard->beat, .reached = heard->reached != 0};
     if (events.offered) m.token = {.name = caravan::root_name, .holder = to_id(me), .beat = 0};
@@ -369,6 +376,8 @@ void caravan_read_token(int me, Holding* self, int first) {
   read(s, *self);
   if (s.tokens[1].name != to_id(first)) self->holder = no_robot;
 }
+
+int caravan_is_spare(int me) { return swarm[static_cast<std::size_t>(me)].role == Role::spare; }
 
 // ---- caravan_post.pml ----
 

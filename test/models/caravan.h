@@ -60,6 +60,7 @@ struct Holding {
   unsigned short sequence, beat;
   signed char root, holder;
   unsigned char serving, reached, dead, unfit;
+  unsigned char busy, unused; /* with another target */
 };
 struct Events {
   unsigned char beats;          /* rounds that the step stands for */
@@ -78,6 +79,7 @@ void caravan_token_step(int me, struct Holding* self, int id, const struct Holdi
 int caravan_ahead_by(unsigned short a, unsigned short b);
 void caravan_place_token(int me, const struct Holding* self, int first, int there);
 void caravan_read_token(int me, struct Holding* self, int first);
+int caravan_is_spare(int me);
 
 /* caravan_post.pml: the call as a robot knows and sends it. */
 struct Post {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Caravan's tokens: the root's, held by robot 0 at first, and a target's, held by the last one. Holders die, or are only
    not heard of for long, give up, hand their token over, put the target off, leave it; who is tied to a silent one tells
-   that the place is vacant; others take it. What a robot hears is any of a robot's last values.
+   that the place is vacant; others take it, or another target. What a robot hears is any of a robot's last values.
    When nothing more happens each piece of the living has one root and one holder of the target, as far as there are spares. */
 #include "swarm.pml"
 
@@ -26,6 +26,9 @@
 #ifndef VAIN_DRIVES
 #define VAIN_DRIVES 0  /* the holder leaves the target to others; not with HANDOVERS, where it may come to be there after all */
 #endif
+#ifndef OTHERS
+#define OTHERS 0       /* robots that take another target */
+#endif
 #ifndef CLAIMS
 #define CLAIMS 2       /* robots that become root */
 #endif
@@ -49,6 +52,7 @@
 #define MISS 9        /* the target's holder, to whom it is tied, has been silent for too long */
 #define WAIT_IN_VAIN 10
 #define DRIVE_IN_VAIN 11
+#define TAKE_ANOTHER 12
 
 c_decl {
 \#include "caravan.h"
@@ -66,6 +70,7 @@ byte act, me, from, copy;  /* the next step; 0 between steps */
 short graph, graph_count;
 byte deaths_left = DEATHS, suspicions_left = SUSPICIONS, handovers_left = HANDOVERS, give_ups_left = GIVE_UPS, claims_left = CLAIMS;
 byte vacancies_left = VACANCIES, put_offs_left = PUT_OFFS, vain_drives_left = VAIN_DRIVES;
+byte others_left = OTHERS;
 byte tried;  /* a bit for each robot that has driven to the target in vain */
 bool two_roots, no_root, disagree, two_holders, no_holder, revived, tries_again;
 
@@ -91,8 +96,8 @@ c_code {
   }
 
   static void show(const char* what, int k, const struct Holding* r) {
-    Printf("%s %d: root (%d, %d) holder %d count %d%s%s%s%s\n", what, k, r->sequence, r->root, r->holder, r->beat, r->serving ? " serves" : "",
-           r->reached ? " there" : "", r->unfit ? " unfit" : "", r->dead ? " dead" : "");
+    Printf("%s %d: root (%d, %d) holder %d count %d%s%s%s%s%s\n", what, k, r->sequence, r->root, r->holder, r->beat, r->serving ? " serves" : "",
+           r->reached ? " there" : "", r->unfit ? " unfit" : "", r->busy ? " busy" : "", r->dead ? " dead" : "");
   }
 
   static void judge(void) {
@@ -127,9 +132,10 @@ c_code {
       int roots = 0, holders = 0, free = 0, fit = 0, given_up = 0;
       for (int j = 0; j < ROBOTS; ++j) {
         if (!(piece >> j & 1)) continue;
-        const int is_root = robot[j].root == j;
-        roots += is_root, holders += robot[j].serving, free += !is_root && !robot[j].serving;
-        fit += !is_root && !robot[j].serving && !(now.tried >> j & 1);
+        const int is_root = robot[j].root == j, is_free = !is_root && !robot[j].serving && !robot[j].busy;
+        roots += is_root, holders += robot[j].serving, free += is_free;
+        /* Who joins a worker of another target to the root is not free, either. */
+        fit += is_free && caravan_is_spare(j) && !(now.tried >> j & 1);
         given_up |= robot[j].holder == no_robot && now.give_ups_left < GIVE_UPS;
         if (robot[j].root != robot[k].root || robot[j].sequence != robot[k].sequence) now.disagree = 1;
       }
@@ -201,6 +207,10 @@ c_code {
         now.tried |= 1 << me;
         caravan_token_step(me, &r, no_robot, 0, events, FIRST, THERE);
         break;
+      case TAKE_ANOTHER:
+        if (r.serving || r.root == me || r.busy || spent(&now.others_left)) return;
+        r.busy = 1;
+        break;
       case DIE:
         if (spent(&now.deaths_left)) return;
         r.dead = 1;
@@ -250,6 +260,9 @@ active proctype swarm() {
 #endif
 #if PUT_OFFS
     :: act = WAIT_IN_VAIN
+#endif
+#if OTHERS
+    :: act = TAKE_ANOTHER
 #endif
 #if VAIN_DRIVES
     :: act = DRIVE_IN_VAIN
