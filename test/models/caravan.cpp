@@ -15,8 +15,11 @@ using caravan::Message;
 using caravan::State;
 using caravan::Statement;
 
-RobotId to_id(int id) { return id < 0 ? nobody : static_cast<RobotId>(id); }
-signed char from_id(RobotId id) { return id == nobody ? static_cast<signed char>(-1) : static_cast<signed char>(id); }
+// The numbers that stand for no robot are the last ones, so they are negative in the models.
+RobotId to_id(int id) { return static_cast<RobotId>(id); }
+signed char from_id(RobotId id) { return static_cast<signed char>(id); }
+static_assert(static_cast<RobotId>(no_robot) == nobody && static_cast<RobotId>(is_put_off) == caravan::put_off &&
+              static_cast<RobotId>(is_vacant) == caravan::vacant);
 
 constexpr Platform platform{.communication_range_m = 1.0F, .tick_s = 0.1F, .wheel_limit_m_s = 0.1F};
 
@@ -26,6 +29,7 @@ const caravan::Params& params() {
     short_waits.liveness_rounds = 1.0F;
     short_waits.pursue_drives = 0.0F;
     short_waits.takeover_rounds = 4.0F;
+    short_waits.retry_drives = 0.2F;
     return short_waits;
   }();
   return p;
@@ -35,6 +39,7 @@ const caravan::Params& params() {
 constexpr std::array<Vec2, 1> far_wall{{{0, 5}}};
 constexpr std::uint16_t not_yet = 1;  // no rounds in which what was learnt fades
 constexpr std::uint16_t very_long = 20'000;
+constexpr std::uint8_t within_lease = 100;  // rounds; longer than anybody waits for a holder
 
 // One robot, and whom it hears in this round. What is left of another call would be a channel between robots, so all is
 // wiped each time.
@@ -287,13 +292,20 @@ int caravan_is_promised(int me, const End* self, int id) {
 
 namespace {
 
+constexpr RobotId another = largest_caravan;  // target, whose place nobody else knows; or robot, out of reach
+
 Vec2 target_of(int there) { return there >= 0 ? home(there) : Vec2{0.25F, 0.05F}; }
+
+Role role_of(int id, const Holding& h) {
+  return h.root == id ? Role::root : h.serving || h.busy ? Role::worker : Role::spare;
+}
 
 void load(int me, const Holding& self, int first, int there) {
   State& s = Bench::self();
   s.root = s.newest = {self.sequence, to_id(self.root)};
-  s.serves = self.serving ? to_id(first) : nobody;
-  s.role = self.root == me ? Role::root : self.serving ? Role::worker : Role::spare;
+  s.serves = self.serving ? to_id(first) : self.busy ? another : nobody;
+  s.role = role_of(me, self);
+  s.unfit = self.unfit != 0;
   s.token_count = 2;
   s.tokens[0] = {.name = caravan::root_name,
                  .holder = to_id(self.root),
@@ -312,7 +324,9 @@ void read(const State& s, Holding& self) {
   self.holder = from_id(s.tokens[1].holder);
   self.beat = s.tokens[1].beat;
   self.reached = s.tokens[1].reached;
-  self.serving = s.serves != nobody;
+  self.serving = s.serves == s.tokens[1].name;
+  self.busy = s.serves == another;
+  self.unfit = s.unfit;
 }
 
 }  // namespace
@@ -324,12 +338,23 @@ void caravan_token_step(int me, Holding* self, int id, const Holding* heard, Eve
   if (self->serving) s.tokens[1].beat = advanced(s.tokens[1].beat, events.beats - 1);
   if (events.root_silent) s.tokens[0].age = very_long;
   if (events.holder_silent) s.tokens[1].age = very_long;
+  if (events.child_silent) {
+    if (s.role == Role::spare) s.role = Role::connector;
+    s.tokens[1].age = within_lease;
+    s.assumed_silence = within_lease;
+    Statement said;
+    said.role = Role::worker, said.parent = to_id(me);
+    Bench::remember(self->holder, home(self->holder) - home(me), said, within_lease);
+  }
+  if (events.waits_in_vain || events.drives_in_vain) s.nearest = 0.0F;
+  if (events.waits_in_vain) s.stuck_rounds = very_long, s.call = {.source = another, .hops = 1};
+  if (events.drives_in_vain) s.effort = 2.0F;  // C
   s.leaving = events.leaving;
   if (id >= 0) {
     // One that is to take over a target is there.
     Message& m = Bench::put(id, events.leaving && self->serving ? s.tokens[1].place : Vec2{0.1F, 0});
     m.root = {heard->sequence, to_id(heard->root)};
-    m.role = heard->root == id ? Role::root : heard->serving ? Role::worker : Role::spare;
+    m.role = role_of(id, *heard);
     m.token = {
         .name = to_id(first), .holder = to_id(heard->holder), .beat = heard->beat, .reached = heard->reached != 0};
     if (events.offered) m.token = {.name = caravan::root_name, .holder = to_id(me), .beat = 0};
@@ -351,6 +376,8 @@ void caravan_read_token(int me, Holding* self, int first) {
   read(s, *self);
   if (s.tokens[1].name != to_id(first)) self->holder = no_robot;
 }
+
+int caravan_is_spare(int me) { return swarm[static_cast<std::size_t>(me)].role == Role::spare; }
 
 // ---- caravan_post.pml ----
 

@@ -8,6 +8,7 @@ extern "C" {
 #endif
 
 enum { no_robot = -1, largest_caravan = 8 };
+enum { is_put_off = -2, is_vacant = -3 }; /* instead of a target's holder */
 
 /* A swarm in which nothing goes wrong any more: whole robots, which all hear their neighbours in each round. They are
    put in one by one by caravan_place_*(), and read by caravan_read_*(). */
@@ -58,12 +59,16 @@ int caravan_is_promised(int me, const struct End* self, int id);
 struct Holding {
   unsigned short sequence, beat;
   signed char root, holder;
-  unsigned char serving, reached, dead, unused;
+  unsigned char serving, reached, dead, unfit;
+  unsigned char busy, unused; /* with another target */
 };
 struct Events {
   unsigned char beats;          /* rounds that the step stands for */
   unsigned char root_silent;    /* the root has not been heard of for longer than its successor waits */
-  unsigned char holder_silent;  /* nor the holder of the target */
+  unsigned char holder_silent;  /* nor the holder of the target; or it has been without one for so long */
+  unsigned char child_silent;   /* the holder is my child, and it is so long since I heard it */
+  unsigned char waits_in_vain;  /* the holder, for spares */
+  unsigned char drives_in_vain; /* it has come no nearer, though nothing held it back */
   unsigned char leaving;        /* the battery runs low */
   unsigned char gives_up;       /* the mission tells it to give up the target that it holds */
   unsigned char offered;        /* the sender is a root that runs low, and offers its token to me */
@@ -74,6 +79,7 @@ void caravan_token_step(int me, struct Holding* self, int id, const struct Holdi
 int caravan_ahead_by(unsigned short a, unsigned short b);
 void caravan_place_token(int me, const struct Holding* self, int first, int there);
 void caravan_read_token(int me, struct Holding* self, int first);
+int caravan_is_spare(int me);
 
 /* caravan_post.pml: the call as a robot knows and sends it. */
 struct Post {

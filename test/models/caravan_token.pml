@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Caravan's tokens: the root's, held by robot 0 at first, and a target's, held by the last one. Holders die, or are only
-   not heard of for long, give up, hand their token over; others take it. What a robot hears is any of a robot's last values.
+   not heard of for long, give up, hand their token over, put the target off, leave it; who is tied to a silent one tells
+   that the place is vacant; others take it, or another target. What a robot hears is any of a robot's last values.
    When nothing more happens each piece of the living has one root and one holder of the target, as far as there are spares. */
 #include "swarm.pml"
 
@@ -15,6 +16,18 @@
 #endif
 #ifndef GIVE_UPS
 #define GIVE_UPS 0
+#endif
+#ifndef VACANCIES
+#define VACANCIES 0    /* told by whoever is tied to the holder */
+#endif
+#ifndef PUT_OFFS
+#define PUT_OFFS 0
+#endif
+#ifndef VAIN_DRIVES
+#define VAIN_DRIVES 0  /* the holder leaves the target to others; not with HANDOVERS, where it may come to be there after all */
+#endif
+#ifndef OTHERS
+#define OTHERS 0       /* robots that take another target */
 #endif
 #ifndef CLAIMS
 #define CLAIMS 2       /* robots that become root */
@@ -33,9 +46,13 @@
 #define HEAR_OFFER 3  /* of a root that runs low */
 #define HAND 4        /* the target, to a spare that it hears */
 #define CLAIM 5       /* the root has been silent for too long */
-#define SUCCEED 6     /* so has the target's holder */
+#define SUCCEED 6     /* so has the target's holder, or it has none */
 #define GIVE_UP 7
 #define DIE 8
+#define MISS 9        /* the target's holder, to whom it is tied, has been silent for too long */
+#define WAIT_IN_VAIN 10
+#define DRIVE_IN_VAIN 11
+#define TAKE_ANOTHER 12
 
 c_decl {
 \#include "caravan.h"
@@ -43,7 +60,7 @@ c_decl {
 \#include "graphs.h"
 \#include "seen.h"
 #define FIRST (ROBOTS - 1)
-#define CALM_ROUNDS 70
+#define CALM_ROUNDS 70  /* nobody moves; in more than 100 a holder has driven in vain */
 #define HEARD(k, copy) ((copy) == 0 ? &now.robot[k] : &now.older[k][(copy) - 1])
 };
 c_state "struct Holding robot[ROBOTS]" "Global"
@@ -52,7 +69,10 @@ c_state "struct Holding older[ROBOTS][COPIES]" "Global"
 byte act, me, from, copy;  /* the next step; 0 between steps */
 short graph, graph_count;
 byte deaths_left = DEATHS, suspicions_left = SUSPICIONS, handovers_left = HANDOVERS, give_ups_left = GIVE_UPS, claims_left = CLAIMS;
-bool two_roots, no_root, disagree, two_holders, no_holder, revived;
+byte vacancies_left = VACANCIES, put_offs_left = PUT_OFFS, vain_drives_left = VAIN_DRIVES;
+byte others_left = OTHERS;
+byte tried;  /* a bit for each robot that has driven to the target in vain */
+bool two_roots, no_root, disagree, two_holders, no_holder, revived, tries_again;
 
 c_code {
   static int hears(int a, int b) { return a != b && (graphs[now.graph] >> edge_bit(a, b) & 1); }
@@ -76,12 +96,17 @@ c_code {
   }
 
   static void show(const char* what, int k, const struct Holding* r) {
-    Printf("%s %d: root (%d, %d) holder %d count %d%s%s%s\n", what, k, r->sequence, r->root, r->holder, r->beat, r->serving ? " serves" : "",
-           r->reached ? " there" : "", r->dead ? " dead" : "");
+    Printf("%s %d: root (%d, %d) holder %d count %d%s%s%s%s%s\n", what, k, r->sequence, r->root, r->holder, r->beat, r->serving ? " serves" : "",
+           r->reached ? " there" : "", r->unfit ? " unfit" : "", r->busy ? " busy" : "", r->dead ? " dead" : "");
   }
 
   static void judge(void) {
-    if (seen((unsigned long long)now.graph ^ (unsigned long long)now.give_ups_left << 20, now.robot, sizeof now.robot)) return;
+    /* After any of these another one may hold it, too, that has not been told to give it up. */
+    const int undisturbed = now.deaths_left == DEATHS && now.suspicions_left == SUSPICIONS && now.put_offs_left == PUT_OFFS &&
+                            now.vain_drives_left == VAIN_DRIVES;
+    const unsigned long long past = (unsigned long long)now.give_ups_left << 20 ^ (unsigned long long)now.tried << 24 ^
+                                    (unsigned long long)undisturbed << 30;
+    if (seen((unsigned long long)now.graph ^ past, now.robot, sizeof now.robot)) return;
     struct Holding robot[ROBOTS];
     memcpy(robot, now.robot, sizeof robot);
     unsigned dead = 0;
@@ -97,24 +122,29 @@ c_code {
       for (int k = 0; k < ROBOTS; ++k) caravan_read_token(k, &robot[k], FIRST), show("  round robot", k, &robot[k]);
 #endif
     }
-    for (int k = 0; k < ROBOTS; ++k) caravan_read_token(k, &robot[k], FIRST);
+    for (int k = 0; k < ROBOTS; ++k) {
+      caravan_read_token(k, &robot[k], FIRST);
+      if (robot[k].serving && !now.robot[k].serving && (now.tried >> k & 1)) now.tries_again = 1;
+    }
     for (int k = 0; k < ROBOTS; ++k) {
       if (dead >> k & 1) continue;
       const unsigned piece = reach(graphs[now.graph], k, ~dead & ((1U << ROBOTS) - 1));
-      int roots = 0, holders = 0, free = 0, given_up = 0;
+      int roots = 0, holders = 0, free = 0, fit = 0, given_up = 0;
       for (int j = 0; j < ROBOTS; ++j) {
         if (!(piece >> j & 1)) continue;
-        const int is_root = robot[j].root == j;
-        roots += is_root, holders += robot[j].serving, free += !is_root && !robot[j].serving;
+        const int is_root = robot[j].root == j, is_free = !is_root && !robot[j].serving && !robot[j].busy;
+        roots += is_root, holders += robot[j].serving, free += is_free;
+        /* Who joins a worker of another target to the root is not free, either. */
+        fit += is_free && caravan_is_spare(j) && !(now.tried >> j & 1);
         given_up |= robot[j].holder == no_robot && now.give_ups_left < GIVE_UPS;
         if (robot[j].root != robot[k].root || robot[j].sequence != robot[k].sequence) now.disagree = 1;
       }
       if (roots > 1) now.two_roots = 1;
       if (roots == 0 && free > 0) now.no_root = 1;
       if (holders > 1) now.two_holders = 1;
-      if (holders == 0 && free > 0 && !given_up) now.no_holder = 1;
-      /* Nobody held it any more when all was well again, and nobody died or was taken for dead. */
-      if (holders > 0 && gone && now.deaths_left == DEATHS && now.suspicions_left == SUSPICIONS) now.revived = 1;
+      if (holders == 0 && fit > 0 && !given_up) now.no_holder = 1;
+      /* Nobody held it any more when all was well again. */
+      if (holders > 0 && gone && undisturbed) now.revived = 1;
     }
   }
 
@@ -151,7 +181,7 @@ c_code {
         break;
       case SUCCEED:
         if (r.serving || r.root == me || r.holder == no_robot) return;
-        if (!now.robot[r.holder].dead && spent(&now.suspicions_left)) return;
+        if (r.holder >= 0 && !now.robot[r.holder].dead && spent(&now.suspicions_left)) return;
         events.holder_silent = 1;
         caravan_token_step(me, &r, no_robot, 0, events, FIRST, THERE);
         break;
@@ -160,12 +190,34 @@ c_code {
         events.gives_up = 1;
         caravan_token_step(me, &r, no_robot, 0, events, FIRST, THERE);
         break;
+      case MISS:
+        if (r.serving || r.holder < 0 || !hears(me, r.holder) || spent(&now.vacancies_left)) return;
+        if (!now.robot[r.holder].dead && spent(&now.suspicions_left)) return;
+        events.child_silent = 1;
+        caravan_token_step(me, &r, no_robot, 0, events, FIRST, THERE);
+        break;
+      case WAIT_IN_VAIN:
+        if (!r.serving || spent(&now.put_offs_left)) return;
+        events.waits_in_vain = 1;
+        caravan_token_step(me, &r, no_robot, 0, events, FIRST, THERE);
+        break;
+      case DRIVE_IN_VAIN:
+        if (!r.serving || spent(&now.vain_drives_left)) return;
+        events.drives_in_vain = 1;
+        now.tried |= 1 << me;
+        caravan_token_step(me, &r, no_robot, 0, events, FIRST, THERE);
+        break;
+      case TAKE_ANOTHER:
+        if (r.serving || r.root == me || r.busy || spent(&now.others_left)) return;
+        r.busy = 1;
+        break;
       case DIE:
         if (spent(&now.deaths_left)) return;
         r.dead = 1;
         break;
     }
     struct Holding* old = &now.robot[me];
+    if (r.serving && !old->serving && (now.tried >> me & 1)) now.tries_again = 1;
     if (memcmp(&r, old, sizeof r) == 0) return;
     for (int k = COPIES - 1; k > 0; --k) now.older[me][k] = now.older[me][k - 1];
     now.older[me][0] = *old;
@@ -203,6 +255,18 @@ active proctype swarm() {
     :: act = SUCCEED
     :: act = GIVE_UP
     :: act = DIE
+#if VACANCIES
+    :: act = MISS
+#endif
+#if PUT_OFFS
+    :: act = WAIT_IN_VAIN
+#endif
+#if OTHERS
+    :: act = TAKE_ANOTHER
+#endif
+#if VAIN_DRIVES
+    :: act = DRIVE_IN_VAIN
+#endif
     fi;
     c_code { take_step(); };
     assert(!two_roots);
@@ -211,6 +275,7 @@ active proctype swarm() {
     assert(!two_holders);
     assert(!no_holder);
     assert(!revived);
+    assert(!tries_again);
     act = 0; me = 0; from = 0; copy = 0
   }
   od

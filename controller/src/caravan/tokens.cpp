@@ -122,6 +122,10 @@ void settle_rivalry(Robot& robot, Token& t, const TokenNews& news) noexcept {
 // I am said to hold it: it is handed over to me, or that is old news, from before I resigned.
 void accept(Robot& robot, Token& t, const Message& m) noexcept {
   State& self = robot.self;
+  if (self.serves != nobody && t.name != root_name && is_news(m.token.beat, t.beat, t.age)) {
+    t.beat = m.token.beat;
+    announce(t, vacant);  // I have another one; as I am heard, nobody would take me for lost
+  }
   if (self.role != Role::spare || robot.is_root() || self.serves != nobody) return;
   if (t.name == root_name) {
     if (m.id == self.newest.id) become_root(robot);
