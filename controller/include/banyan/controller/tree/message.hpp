@@ -51,7 +51,7 @@ struct TreeStanding : TreeTies {
   float q_y = 0.0F;
   Phase phase = Phase::init;
   Need need = Need::no_need;
-  bool flood_done = false;                // START echo: my flood subtree is complete (protocol 4)
+  bool flood_done = false;                // START echo: my flood subtree is complete (protocol 5)
   bool committed = false;                 // I am in this epoch's tree
   bool parent_silent = false;             // my parent has not been heard for longer than I
   std::uint8_t call_hops = nobody_calls;  // hops to an edge whose need no spare has answered
