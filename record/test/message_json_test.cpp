@@ -44,38 +44,34 @@ json object(mcap::Reader& reader, const char* topic, std::uint64_t tick) {
   return found;
 }
 
-// The tables of docs/protocol.md, section 1, made anew from the lists of fields.
+// The table of docs/protocol.md, section 1, made anew from the lists of fields: name and bits.
 struct Rows {
   std::vector<std::string> list;
-  void add(const std::string& name, std::size_t size, const char* unit) {
-    list.push_back(name + " " + std::to_string(size) + " " + unit + (size == 1 ? "" : "s"));
-  }
+  void add(const std::string& name, std::size_t bits) { list.push_back(name + " " + std::to_string(bits)); }
+  template <class T> void add_bytes(const char* name, const T&) { add(name, 8 * sizeof(T)); }
   template <class E> void choice(const char* name, const char*, const E&, int bits, E) {
-    add(name, static_cast<std::size_t>(bits), "bit");
+    add(name, static_cast<std::size_t>(bits));
   }
-  void flag(const char* name, const char*, bool) { add(name, 1, "bit"); }
-  template <class T> void number(const char* name, const char*, const T&) { add(name, sizeof(T), "byte"); }
-  template <class T> void known(const char* name, const char*, const T&) { add(name, sizeof(T), "byte"); }
-  void robot(const char* name, const char*, RobotId) { add(name, 2, "byte"); }
-  void count(const char* name, const char*, RobotCount) { add(name, 2, "byte"); }
-  template <class T> void scaled(const char* name, const char*, const T&, float) { add(name, sizeof(T), "byte"); }
-  void coordinate(const char* name, const char*, Coordinate) { add(name, 2, "byte"); }
-  void real(const char* name, const char*, float, float) { add(name, 4, "byte"); }
+  void flag(const char* name, const char*, bool) { add(name, 1); }
+  template <class T> void number(const char* name, const char*, const T& v) { add_bytes(name, v); }
+  template <class T> void known(const char* name, const char*, const T& v) { add_bytes(name, v); }
+  void robot(const char* name, const char*, RobotId v) { add_bytes(name, v); }
+  void count(const char* name, const char*, RobotCount v) { add_bytes(name, v); }
+  template <class T> void scaled(const char* name, const char*, const T& v, float) { add_bytes(name, v); }
+  void coordinate(const char* name, const char*, Coordinate v) { add_bytes(name, v.bits); }
+  void real(const char* name, const char*, float v, float) { add_bytes(name, v); }
 };
 
 std::vector<std::string> rows_of_document() {
   std::ifstream in(BANYAN_SOURCE_DIR "/docs/protocol.md");
-  const std::regex row(R"(\| `(\w+)`(, `(\w+)`)? \| (\d+)( \+ (\d+))? (bit|byte)s? \|.*)");
+  const std::regex row(R"(`(\w+)`(, `(\w+)`)?: (2 \S+ )?(\d+) \|.*)");
   std::vector<std::string> list;
   std::string line;
   std::smatch match;
   while (std::getline(in, line)) {
     if (!std::regex_match(line, match, row)) continue;
-    const auto add = [&](const std::string& name, const std::string& size) {
-      list.push_back(name + " " + size + " " + match[7].str() + (size == "1" ? "" : "s"));
-    };
-    add(match[1], match[4]);
-    if (match[3].matched) add(match[3], match[6]);
+    list.push_back(match[1].str() + " " + match[5].str());
+    if (match[3].matched) list.push_back(match[3].str() + " " + match[5].str());
   }
   return list;
 }

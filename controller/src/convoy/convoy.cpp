@@ -50,9 +50,9 @@ bool is_drained_spare(const ConvoyRobot& robot, int k) noexcept {
 struct Preference {
   // Of C, and no edge is longer: one of these outweighs any difference of lengths.
   static constexpr float costs_leaving = 4.0F;
-  static constexpr float costs_risk = 5.0F;  // to be hidden soon
-  static constexpr float costs_drained = 8.0F;
-  static constexpr float costs_blocked = 10.0F;
+  static constexpr float costs_risk = 5.0F;      // to be hidden soon
+  static constexpr float costs_drained = 8.0F;   // has too little charge
+  static constexpr float costs_blocked = 10.0F;  // a robot stands in the way
   int rank;
   float key;
   Preference(const ConvoyRobot& robot, int k) noexcept {
@@ -150,8 +150,8 @@ bool may_reconstruct(const ConvoyRobot& robot) noexcept {
   if (is_leaving(robot) && !is_planned(robot.self)) return true;
   // Companions would have to change places. While branches change their parents, a root may have no worker for a tick.
   if (has_companions(robot.params) && (has_arrived(robot) || has_settled(robot))) return false;
-  constexpr float patience_drives = 0.5F;
-  constexpr float called_patience_drives = 1.5F;
+  constexpr float patience_drives = 0.5F;         // without progress,
+  constexpr float called_patience_drives = 1.5F;  // and while an edge calls
   const bool called = robot.self.call_hops != nobody_calls;
   const bool begun = is_planned(robot.self) || robot.self.plan_steps < robot.self.plan_levels;
   return robot.self.stalled_ticks > robot.params.rounds(called ? called_patience_drives : patience_drives) && !begun;

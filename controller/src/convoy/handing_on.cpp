@@ -24,7 +24,7 @@ bool is_held_by_branches(const ConvoyRobot& robot, int k) noexcept {
 // probably opposite.
 Vec2 place_beside(const ConvoyRobot& robot, int k) noexcept {
   constexpr float beside_junction = 0.175F;  // of C
-  constexpr int as_far = 6;
+  constexpr int as_far = 6;                  // of per_range: a smaller difference does not count
   const TreeTable& table = robot.table();
   const TreeStanding& junction = table.message(k);
   const Vec2 at = table.position(k);

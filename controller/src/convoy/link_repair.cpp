@@ -41,7 +41,7 @@ float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
 }  // namespace
 
 Outlook outlook(const ConvoyRobot& robot) noexcept {
-  constexpr int hidden_ticks = 1;
+  constexpr int hidden_ticks = 1;  // silent for longer it is hidden
   const float clearance = robot.params.clearance;
   const bool hidden = robot.table().age(robot.parent) > std::max(hidden_ticks, usual_silence_ticks(robot));
   // Companions stand near edges. Where robots hide nothing, that endangers none.

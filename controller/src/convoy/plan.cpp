@@ -15,12 +15,12 @@
 namespace banyan {
 namespace {
 
-constexpr float plan_limit_drives = 3.0F;  // what has not been built by then is given up
-constexpr float plan_period_drives = 4.0F;
-constexpr float thrifty_limit_drives = 2.6F;
-constexpr float thrifty_period_drives = 2.5F;
-constexpr float held_back_after_drives = 0.6F;
-constexpr int unsettled_ticks = 30;
+constexpr float plan_limit_drives = 3.0F;       // what has not been built by then is given up
+constexpr float plan_period_drives = 4.0F;      // between two levels
+constexpr float thrifty_limit_drives = 2.6F;    // the same with thrift
+constexpr float thrifty_period_drives = 2.5F;   // the same with thrift
+constexpr float held_back_after_drives = 0.6F;  // without progress a leader asks for a spare
+constexpr int unsettled_ticks = 30;             // so long somebody may be missing before all counts as undone
 constexpr float far = 1e9F;
 
 const Task* find_active(const ConvoyRobot& robot, RobotId serves) noexcept {
@@ -179,7 +179,7 @@ void shed(ConvoyRobot& robot) noexcept {
     if (over) self.shed = nobody;
     return;
   }
-  constexpr int hand = 13;
+  constexpr int hand = 13;  // of per_range: so much nearer is progress
   const auto all = self.known_tasks();
   const int reached = count_of(all, [](const Task& t) { return t.holder != nobody && t.reached; });
   const int want_steps = static_cast<int>(self.want * per_range);
@@ -213,8 +213,8 @@ int least_robots(const ConvoyRobot& robot, const Task& task) noexcept {
 // spares than ever before, else after a pause that doubles with each time. If nobody sets out for it, it is put off
 // again.
 void retry(ConvoyRobot& robot) noexcept {
-  constexpr float first_pause_drives = 3.0F;
-  constexpr float unclaimed_drives = 6.0F;
+  constexpr float first_pause_drives = 3.0F;  // before it is tried again; then twice as long each time
+  constexpr float unclaimed_drives = 6.0F;    // then it is put off again
   ConvoyState& self = robot.self;
   const int spares = static_cast<int>(self.root_size) - static_cast<int>(self.subtree);
   const int tried_with = static_cast<int>(self.tried_with);
@@ -241,9 +241,9 @@ void retry(ConvoyRobot& robot) noexcept {
 // Whether there are so many robots that branches may fold (redundancy/folding.hpp): for each path more than the
 // shortest tree takes, since edges are not all equally long. What is measured varies, so there is a band between.
 void count_for_folding(ConvoyRobot& robot) noexcept {
-  constexpr int look_again_ticks = 16;
-  constexpr float plenty = 1.25F;  // times the robots of one path: from here on branches may fold,
-  constexpr float scarce = 1.1F;   // and below this they may not
+  constexpr int look_again_ticks = 16;  // between two looks
+  constexpr float plenty = 1.25F;       // times the robots of one path: from here on branches may fold,
+  constexpr float scarce = 1.1F;        // and below this they may not
   ConvoyState& self = robot.self;
   if (!has_companions(robot.params) || !robot.params.line_of_sight) return;
   if (self.turn % look_again_ticks != 0 || self.root_size == 0) return;
@@ -288,7 +288,7 @@ RobotId lead_of(const ConvoyRobot& robot) noexcept {
 }  // namespace
 
 bool has_settled(const ConvoyRobot& robot) noexcept {
-  constexpr int settled_ticks = 50;
+  constexpr int settled_ticks = 50;  // so long all have been at their targets
   static_assert(settled_ticks > unsettled_ticks, "until then settled_ticks grows, whoever is missing");
   return robot.self.settled_ticks > settled_ticks;
 }

@@ -29,15 +29,15 @@ constexpr float follow_tree = 0.5F;    // and behind a robot of the tree
 constexpr float called_follow_spare = 0.6F;  // the same while it is called elsewhere
 constexpr float called_follow_tree = 0.75F;
 constexpr float called_follow_thin = 0.9F;  // where no crowd is, and packets get lost
-constexpr float pinned_start = 0.125F;
-constexpr float pinned_width = 0.05F;
-constexpr float up_start = 0.025F;  // beside a junction that is handed on
+constexpr float pinned_start = 0.125F;      // of C: from here on a child at a corner tows,
+constexpr float pinned_width = 0.05F;       // and with full strength so much farther away
+constexpr float up_start = 0.025F;          // beside a junction that is handed on
 constexpr float up_width = 0.10F;
 
 constexpr float tows_sooner = 4.0F;        // times the spread of ranges
 constexpr float as_good_as_there = 0.95F;  // of arrival_distance
-constexpr int slack_reach_hops = 8;
-constexpr int silent_ticks = 2;  // a robot silent for longer is out of sight
+constexpr int slack_reach_hops = 8;        // so far from an edge that waits in vain robots give up slack
+constexpr int silent_ticks = 2;            // a robot silent for longer is out of sight
 
 // Somewhere near, an edge waits in vain for a spare.
 bool is_short_of_robots(const ConvoyRobot& robot) noexcept { return robot.self.call_hops <= slack_reach_hops; }
@@ -123,7 +123,7 @@ Vec2 tension(const ConvoyRobot& robot) noexcept {
 
 // In a large swarm: I am on my way past child k or up to it, and my other edges are not to hold me back.
 bool goes_to_child(const ConvoyRobot& robot) noexcept {
-  constexpr float on_the_way = 0.5F;
+  constexpr float on_the_way = 0.5F;  // of C: some worker below has still so far to go
   return has_far_spares(robot) && robot.self.want > on_the_way && banyan::any_of(robot.children, [&](int k) {
            return robot.table().message(k).role != Role::spare &&
                   (tows_past(robot, k) || is_held_by_branches(robot, k));
@@ -189,7 +189,7 @@ Vec2 pushed_off(const ConvoyRobot& robot, Vec2 way, float width) noexcept {
 // The course of a spare that is needed elsewhere. If others push it back so hard that it almost stops, the push is
 // turned sideways, to the side to which it is pushed already; among obstacles bypass() chooses the side.
 Vec2 past(const ConvoyRobot& robot, Vec2 way, float width) noexcept {
-  constexpr float stopped = 0.7F;
+  constexpr float stopped = 0.7F;  // of its speed, against it
   const Vec2 apart = repulsion(robot);
   const Vec2 out = make_way(robot, width);
   const float against = -dot(way, apart + out);
@@ -209,7 +209,7 @@ int tree_neighbor(const ConvoyRobot& robot, int n) noexcept {
 // With thrift: a junction goes to each of its tree neighbours in turn, since the robot that can be saved may be on any
 // branch. To a child only while no robot is near its edges, which might be drawn across that robot.
 int junction_way(const ConvoyRobot& robot) noexcept {
-  constexpr float turn_drives = 1.2F;
+  constexpr float turn_drives = 1.2F;  // to each of them
   const ConvoyParams& p = robot.params;
   int turn = robot.self.phase_ticks / p.rounds(turn_drives) % (robot.useful_children + 1);
   int way = robot.parent;
@@ -310,7 +310,7 @@ bool holds_still(const ConvoyRobot& robot) noexcept {
 // A worker without a parent goes as far as its hold allows, which draws it back in proportion to the distance: turning
 // back at a fixed distance would oscillate for ever. While it hears no neighbour it only turns on the spot.
 Vec2 before_tree(const ConvoyRobot& robot) noexcept {
-  constexpr float turning = 0.001F;
+  constexpr float turning = 0.001F;   // so slow that it only turns
   constexpr float hold_width = 0.1F;  // of C
   const ConvoyParams& p = robot.params;
   if (robot.self.phase >= Phase::grow_tree || !robot.self.is_worker) return repulsion(robot);

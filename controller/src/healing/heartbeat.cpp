@@ -39,7 +39,7 @@ void hear_heartbeat(HealingRobot& robot) noexcept {
 
 // From the root itself, else from a robot nearly as near to it as I am or nearer, as its count shows.
 void locate_root(HealingRobot& robot) noexcept {
-  constexpr int stale_ticks = 1;
+  constexpr int stale_ticks = 1;  // a count farther behind mine is old news
   HealingState& self = robot.self;
   for (const Heard& h : robot.news) {
     const HealingMessage& m = said(h);
@@ -74,8 +74,8 @@ bool misses_first_root(const HealingRobot& robot) noexcept {
   constexpr int first_root_ticks = 200;  // by then the first token has travelled 200 hops
   // In a thin start where packets get lost, part of the network may have to be fetched first. And among few neighbours,
   // as in a line whose bodies hide all others, the token has one way, on which each burst of loss holds it up.
-  constexpr int fetched_later = 3;
-  constexpr int few_ways = 4;
+  constexpr int fetched_later = 3;  // times as long
+  constexpr int few_ways = 4;       // neighbours
   const TreeTable& table = robot.table();
   const bool is_slow = is_thin(robot.self) || table.size() <= few_ways;
   const int patience_ticks = first_root_ticks * (is_slow ? fetched_later : 1);

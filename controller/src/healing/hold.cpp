@@ -14,10 +14,10 @@ int hops_to_tree(const TreeStanding& m) noexcept {
   return m.depth != invalid_depth ? -1 : unreachable;
 }
 
-constexpr float hop_cost = 4.0F;
+constexpr float hop_cost = 4.0F;           // a hop to the tree
 constexpr float costs_too_long = 8192.0F;  // and more with each C
 constexpr float costs_length = 1024.0F;    // a C
-constexpr float costs_no_root = 4096.0F;
+constexpr float costs_no_root = 4096.0F;   // of one without a way to the root
 constexpr float costs_strained = 2048.0F;  // 255 hops cost half of it
 constexpr float costs_change = 2.0F;       // half a hop
 constexpr float costs_change_far = 10.0F;  // a hundredth of C

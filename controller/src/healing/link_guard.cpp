@@ -64,7 +64,7 @@ void guard_links(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept
 
 void push_nobody(const HealingRobot& robot, Guard& guard) noexcept {
   constexpr float apart = 2.1F;  // of the radius: bodies do not touch yet
-  constexpr float near = 3.15F;
+  constexpr float near = 3.15F;  // nearer they slow down
   const TreeTable& table = robot.table();
   const HealingParams& p = robot.params;
   const HealingState& self = robot.self;

@@ -7,11 +7,11 @@
 namespace banyan {
 namespace {
 
-constexpr float fading = 0.99F;        // per tick: about the last hundred ticks count
-constexpr float prior_packets = 2.0F;  // counted as heard before the first one
-constexpr float silent_by_chance = 1e-5F;
-constexpr int first_silence_ticks = 32;  // usual silence, assumed once the radio loses packets
-constexpr int beyond_chance = 2;         // a burst: times as long as a silence by chance
+constexpr float fading = 0.99F;            // per tick: about the last hundred ticks count
+constexpr float prior_packets = 2.0F;      // counted as heard before the first one
+constexpr float silent_by_chance = 1e-5F;  // so seldom a living neighbour is silent for I
+constexpr int first_silence_ticks = 32;    // usual silence, assumed once the radio loses packets
+constexpr int beyond_chance = 2;           // a burst: times as long as a silence by chance
 
 // So long a living neighbour may be silent by chance.
 int by_chance_ticks(const HealingRobot& robot) noexcept {
@@ -36,9 +36,9 @@ int missed(const HealingRobot& robot) noexcept {
 // Packets may be lost many in a row, or over some links more than over others. Then their share says little of how long
 // a robot that is there may be silent, but silences that have ended do. One or two that begin may be deaths.
 void note_silence(HealingRobot& robot) noexcept {
-  constexpr int memory_turns = 512;
-  constexpr int deaths = 2;         // within this time, that are no sign of lost packets
-  constexpr int fading_turns = 16;  // to be a tick shorter
+  constexpr int memory_turns = 512;  // then what was missed is forgotten
+  constexpr int deaths = 2;          // within this time, that are no sign of lost packets
+  constexpr int fading_turns = 16;   // to be a tick shorter
   HealingState& self = robot.self;
   if (self.turn % memory_turns == 0) self.missed_in_the_clear = 0;
   if (self.usual_silence == 0) {
@@ -97,7 +97,7 @@ void note_burst(HealingRobot& robot) noexcept {
 
 // For so many ticks a silent neighbour may be there: twice what is usual, and longer while the first tree is built.
 void HealingRobot::take_patience() noexcept {
-  constexpr int silences = 2;
+  constexpr int silences = 2;  // times the usual one
   forget_ticks = by_chance_ticks(*this);
   loss_ticks = std::max<int>(self.loss_ticks, silences * self.burst_ticks);
   if (self.usual_silence == 0) tie_ticks = 0;

@@ -45,7 +45,7 @@ void note_hears(HealingRobot& robot, const Heard& h) noexcept {
 }
 
 RobotId name_next(const HealingRobot& robot) noexcept {
-  constexpr int call_turns = 4;
+  constexpr int call_turns = 4;  // every fourth message calls
   HealingState& self = robot.self;
   const TreeTable& table = robot.table();
   if (self.calls && self.turn % call_turns == 0) return self.id;

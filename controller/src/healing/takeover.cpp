@@ -11,11 +11,11 @@ namespace {
 constexpr int takeover_beats = 60;          // a successor's count starts so far ahead of the news under way
 constexpr int rival_beats = 30;             // a count farther behind mine is that of a dead worker
 constexpr std::uint8_t pass_on_ticks = 40;  // how long news has priority
-constexpr float second_try_drives = 4.0F;
-constexpr float news_hop = 0.7F;  // of C
-constexpr int per_tick = 16;      // units of news_gap
-constexpr int gap_memory = 64;    // pieces of news
-constexpr int gap_patience = 2;   // times as long as other news was missing of late
+constexpr float second_try_drives = 4.0F;   // so much later whoever gave it up tries again
+constexpr float news_hop = 0.7F;            // of C
+constexpr int per_tick = 16;                // units of news_gap
+constexpr int gap_memory = 64;              // pieces of news
+constexpr int gap_patience = 2;             // times as long as other news was missing of late
 
 // What the sender says of a target.
 struct TaskNews {
@@ -74,7 +74,7 @@ void settle_rivalry(HealingRobot& robot, Task& task, const TaskNews& news) noexc
 
 // Towards what a robot says that only remembers the place, or measures with noise.
 void approach(Task& task, Vec2 told) noexcept {
-  constexpr float trust = 0.2F;
+  constexpr float trust = 0.2F;  // of the difference, for each time it is told
   task.target += (told - task.target) * trust;
 }
 
@@ -93,7 +93,7 @@ bool is_too_far_to_tell(const HealingRobot& robot, RobotId sender, Vec2 told, Ve
 // by memory, copies of copies would only drift, and wheels slip in a crowd: then the mean of what all neighbours
 // remember is best. Where targets are handed over all the time, the holder and the worker first sent there know best.
 void locate(const HealingRobot& robot, Task& task, RobotId sender, const TaskNews& news, Vec2 told) noexcept {
-  constexpr int stale_ticks = 3;
+  constexpr int stale_ticks = 3;  // a count farther behind mine is old news
   const bool silent =
       robot.self.forgets ? task.silent && news.silent : task.age_ticks > 2 * robot.liveness_ticks() + task_capacity;
   const bool by_memory = silent || task.holder != task.serves;

@@ -11,7 +11,7 @@ namespace {
 constexpr int look_ticks = 10;  // by then most neighbours have been heard, whatever is lost
 
 bool has_few_far_away(const HealingRobot& robot) noexcept {
-  constexpr int few = 4;
+  constexpr int few = 4;         // neighbours
   constexpr float apart = 0.4F;  // of C: so few in a crowd are nearer
   const TreeTable& table = robot.table();
   return table.size() > 0 && table.size() <= few && table.range(0) > apart;

@@ -38,8 +38,8 @@ bool is_tie(const HealingRobot& robot, int k) noexcept {
 }
 
 float strayed_way(const HealingRobot& robot, int k) noexcept {
-  constexpr int usual_ticks = 2;  // for so long a neighbour is silent now and then
-  constexpr int at_most_ticks = 30;
+  constexpr int usual_ticks = 2;     // for so long a neighbour is silent now and then
+  constexpr int at_most_ticks = 30;  // it will not have driven away for longer
   const int ticks = robot.table().age(k) - usual_ticks;
   if (robot.tie_ticks == 0 || ticks <= 0) return 0.0F;
   if (robot.self.phase == Phase::init) return 0.0F;  // nobody near has set out, and beyond it others may hear me

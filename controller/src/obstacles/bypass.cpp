@@ -9,9 +9,9 @@ namespace {
 
 constexpr float keep = 0.02F;           // between body and obstacle while driving along it
 constexpr float same_obstacle = 0.10F;  // the contact point moves on by less in a tick
-constexpr float progress = 0.025F;
-constexpr float first_span = 0.35F;  // of C
-constexpr float goal_moved = 0.15F;
+constexpr float progress = 0.025F;      // of C: a detour ends only so much nearer to the goal
+constexpr float first_span = 0.35F;     // of C
+constexpr float goal_moved = 0.15F;     // of C: it is another goal
 
 // ---- One obstacle point: which directions it leaves free ----
 
@@ -108,7 +108,7 @@ void carry_detour(Detour& detour, const Carry& carry) noexcept {
   // A robot pushed back on its way round might never get as near to the goal as it was, and would circle
   // for ever: so the distance at which the detour counts as done grows with the way driven.
   constexpr float allowance = 0.25F;
-  constexpr float allowance_again = 0.025F;
+  constexpr float allowance_again = 0.025F;  // the same for a detour that is continued
   if (detour.side == 0 && detour.last_side == 0) return;
   for (Vec2* v : {&detour.contact, &detour.origin, &detour.goal}) *v = carry.point(*v);
   detour.leave += (detour.again ? allowance_again : allowance) * norm(carry.shift);

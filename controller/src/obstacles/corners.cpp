@@ -17,10 +17,10 @@ namespace {
 constexpr float sight_margin = 0.015F;  // C: own motion brings no line of sight nearer to a corner than this
 constexpr float sight_width = 0.06F;    // robots make room for lines nearer to a corner than this
 constexpr float hinge_width = 0.15F;    // the parent is told of a corner so near to the edge
-constexpr float pin_width = 0.03F;
-constexpr float pin_shortest = 0.15F;  // a parent nearer than this need not come up
-constexpr float spacing = 0.03F;       // between remembered points
-constexpr float least_lever = 0.1F;    // with less, my motion hardly moves the line there;
+constexpr float pin_width = 0.03F;      // C: so near to the edge a corner is about to cut it
+constexpr float pin_shortest = 0.15F;   // a parent nearer than this need not come up
+constexpr float spacing = 0.03F;        // between remembered points
+constexpr float least_lever = 0.1F;     // with less, my motion hardly moves the line there;
 // But the body of a former parent lies beside the robot that is the parent now.
 constexpr float least_lever_body = 0.02F;
 constexpr float forget = 1.0F;  // of C: points farther away are forgotten, since no edge is longer

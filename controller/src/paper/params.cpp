@@ -60,7 +60,7 @@ constexpr Parameter<Params> rows[] = {
     {{"guard_rate", "", "1/drive", "each end may lengthen an edge at (delta - d)/2 times this (corrected)",
       "Lower is safer with latency and noise.", "protocol 2, row 4", 0.1F, 100.0F}, &Params::guard_rate},
     {{"arrival_distance", "", "C", "a worker's pull fades within this; the mission's target tolerance unless set",
-      "Leave it to the mission.", "protocol 9", 0.005F, 5.0F}, &Params::arrival_distance},
+      "Leave it to the mission.", "protocol 5", 0.005F, 5.0F}, &Params::arrival_distance},
     speed_parameter<Params>[0],
 };
 // clang-format on

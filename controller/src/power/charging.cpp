@@ -9,20 +9,20 @@
 namespace banyan {
 namespace {
 
-constexpr float full_charge = 0.98F;
-constexpr float level_unit = 254.0F;
-constexpr float charge_smoothing = 0.1F;  // per step, of a measured charge
-constexpr std::uint8_t farthest_place = 250;
-constexpr float at_place = 0.2F;  // of C, from the robot that keeps the place
-constexpr float in_slot = 0.3F;   // while it is charged
-constexpr float per_hop = 0.05F;  // of a full battery
-constexpr int near_hops = 2;
-constexpr int farther_hops = 6;
-constexpr float way_per_hop = 0.02F;  // of a full battery: what the way takes
-constexpr int most_hops_counted = 12;
-constexpr int waits_within = 2;         // hops of a place: there charged spares wait
-constexpr float leaves_sooner = 0.35F;  // of a full battery, at most
-constexpr std::uint8_t calls_end = 60;  // hops
+constexpr float full_charge = 0.98F;          // of a battery
+constexpr float level_unit = 254.0F;          // a full battery in a message
+constexpr float charge_smoothing = 0.1F;      // per step, of a measured charge
+constexpr std::uint8_t farthest_place = 250;  // hops: so far the way is told
+constexpr float at_place = 0.2F;              // of C, from the robot that keeps the place
+constexpr float in_slot = 0.3F;               // while it is charged
+constexpr float per_hop = 0.05F;              // of a full battery
+constexpr int near_hops = 2;                  // up to here a place costs nothing,
+constexpr int farther_hops = 6;               // and at most so many more count
+constexpr float way_per_hop = 0.02F;          // of a full battery: what the way takes
+constexpr int most_hops_counted = 12;         // farther places count as this far
+constexpr int waits_within = 2;               // hops of a place: there charged spares wait
+constexpr float leaves_sooner = 0.35F;        // of a full battery, at most
+constexpr std::uint8_t calls_end = 60;        // hops
 constexpr int turns = 16;
 constexpr float urgent_level = 0.5F;  // a robot with less is let through to the place
 constexpr float place_room = 0.4F;    // of C: kept free round it by those that are charged

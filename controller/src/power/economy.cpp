@@ -16,12 +16,12 @@ bool changes_places(const PowerRobot& me, int k) noexcept {
 }  // namespace
 
 float give_way(const PowerRobot& me, float clearance, Guard& guard) noexcept {
-  constexpr float slow = 0.25F;
-  constexpr float room = 1.5F;      // times the clearance: a robot nearer to an edge hurries
-  constexpr float hides = 0.035F;   // from body to line of sight
-  constexpr float to_pass = 0.05F;  // for those that take part
-  constexpr float to_move = 0.09F;  // for others, since robots that change places move
-  constexpr float hesitates_drives = 0.8F;
+  constexpr float slow = 0.25F;             // of its speed: a charged spare that waits
+  constexpr float room = 1.5F;              // times the clearance: a robot nearer to an edge hurries
+  constexpr float hides = 0.035F;           // from body to line of sight
+  constexpr float to_pass = 0.05F;          // for those that take part
+  constexpr float to_move = 0.09F;          // for others, since robots that change places move
+  constexpr float hesitates_drives = 0.8F;  // then it pushes through
   const HealingRobot& robot = me.robot;
   const TreeState& self = robot.self;
   const TreeTable& table = robot.table();

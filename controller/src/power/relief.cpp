@@ -72,7 +72,7 @@ int leaver_of(const PowerRobot& me) noexcept {
 // A child that I do not hear is right behind the robot that leaves, seen from here. That is remembered for a while: if
 // it were behind it from wherever I go, every spot that I come near would seem a bad one, and I would go to and fro.
 void remember_unseen_child(PowerRobot& me) noexcept {
-  constexpr float remembered_drives = 0.5F;
+  constexpr float remembered_drives = 0.5F;  // so long it is remembered
   PowerState& power = me.power;
   const int k = leaver_of(me);
   if (k < 0 || !hides_child(me, k)) {
@@ -234,7 +234,7 @@ bool may_relieve(const PowerRobot& me, int leaver, int parent, FunctionRef<bool(
 }
 
 bool is_stuck(const PowerRobot& me) noexcept {
-  constexpr float patience_drives = 0.6F;
+  constexpr float patience_drives = 0.6F;  // so long it waits beside the leaver
   const HealingRobot& robot = me.robot;
   return me.power.stuck_ticks > robot.params.rounds(patience_drives) && robot.parent >= 0 &&
          robot.table().range(robot.parent) > slack_below;

@@ -349,7 +349,7 @@ bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept {
   const float reach = saves ? thrifty(p, p.merge_distance) : folded_reach;
   if (distance(from, to) > reach || norm(near) > aside * p.clearance) return false;
   const Vec2 left = left_of(unit(to - from));
-  constexpr float pace = 0.7F;
+  constexpr float pace = 0.7F;  // of its speed
   way = (dot(near, left) > 0.0F ? -left : left) * pace;
   return true;
 }
@@ -357,7 +357,7 @@ bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept {
 float companion_width(const ConvoyRobot& robot, int of) noexcept {
   const ConvoyParams& p = robot.params;
   if (!p.line_of_sight) return 0.0F;
-  constexpr float under_way = 2.0F;
+  constexpr float under_way = 2.0F;  // of `clearance`
   return (robot.table().range(of) > from_afar * p.companion_distance ? under_way : edge_room) * p.clearance;
 }
 

@@ -17,7 +17,7 @@ constexpr float gives_width = 0.5F;   // of the longest folded edge: which gives
 constexpr float off_middle = 0.02F;   // of C: a robot that joins may be so much farther away than a folded edge is long
 constexpr float sideways = 0.5F;      // the pace of a robot that does not hear its grandparent,
 constexpr float slower = 3.0F;        // times slower if that is the next but one: it is hidden more often
-constexpr int unheard_ticks = 3;
+constexpr int unheard_ticks = 3;      // silent for longer it does not hear it
 constexpr float search_drives = 0.4F;   // to one side, then to the other
 constexpr float pushes_through = 6.0F;  // between a line and the edges beside it: through the line
 

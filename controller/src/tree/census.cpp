@@ -39,7 +39,7 @@ void add_child(const TreeRobot& robot, int k, bool counts, Sums& sums) noexcept 
   sums.want = std::max(sums.want, from_fixed(m.want));
 }
 
-// u_target = tau (l - p) / |l - p|, fading on arrival so that the worker does not chatter (protocol 9).
+// u_target = tau (l - p) / |l - p|, fading on arrival so that the worker does not chatter (protocol 5).
 void add_own_target(const TreeRobot& robot, float rest_distance, Sums& sums) noexcept {
   const TreeParams& p = robot.params;
   const float away = norm(*robot.target);
@@ -51,7 +51,7 @@ void add_own_target(const TreeRobot& robot, float rest_distance, Sums& sums) noe
 // How long the workers below have not come any nearer to their targets.
 void watch_progress(const TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
-  constexpr float hand = 0.05F;
+  constexpr float hand = 0.05F;  // of C: a larger change is progress
   if (self.want > self.least_want + hand || self.want < self.least_want - hand) {
     self.least_want = self.want;
     self.stalled_ticks = 0;

@@ -49,7 +49,7 @@ constexpr Parameter<TreeParams> of_tree[] = {
       &TreeParams::centroid_margin},
     {{"arrival_distance", "", "C",
       "a worker's pull fades in proportion within this; the mission's target tolerance unless set",
-      "Leave it to the mission.", "protocol 9", 0.005F, 5.0F}, &TreeParams::arrival_distance},
+      "Leave it to the mission.", "protocol 5", 0.005F, 5.0F}, &TreeParams::arrival_distance},
     {{"call_after_rounds", "", "rounds", "a need unanswered for this long calls spares from afar",
       "Shorter brings spares sooner, and more of them than the edge takes; longer where the radio loses many packets.",
       "protocol 7", 1.0F, 6000.0F}, &TreeParams::call_after_rounds},

@@ -11,9 +11,9 @@ namespace {
 
 constexpr int patience_flood_ticks = 4;    // without a candidate, then the flood parent will do
 constexpr int patience_relabel_ticks = 7;  // then a childless robot may take a new place in the order
-constexpr int orphan_still_ticks = 5;
-constexpr int orphan_attach_ticks = 20;
-constexpr int drafted_attach_ticks = 4;
+constexpr int orphan_still_ticks = 5;      // as an orphan, then it no longer pulls its branch
+constexpr int orphan_attach_ticks = 20;    // then it takes another parent
+constexpr int drafted_attach_ticks = 4;    // the same for a spare that an orphan has taken
 
 // The best candidate by the rule, -1 if none.
 int choose_parent(const TreeRobot& robot, const ParentRule& rule) noexcept {

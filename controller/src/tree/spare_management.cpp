@@ -16,7 +16,7 @@ constexpr int answer_ticks = 14;  // enough for a question and an answer at five
 // Longer where packets are lost.
 int ungranted_limit_ticks(const TreeRobot& robot) noexcept { return std::max(answer_ticks, robot.loss_ticks); }
 
-constexpr std::uint8_t call_reach_hops = 250;
+constexpr std::uint8_t call_reach_hops = 250;  // so far a call is passed on
 
 // ---- The owner of an edge: NO NEED -> NEED -> AWAIT ----
 

@@ -12,7 +12,7 @@ namespace banyan {
 
 // As far as I have heard what the root has counted.
 [[nodiscard]] inline bool is_counted_large(const ConvoyRobot& robot) noexcept {
-  constexpr std::uint16_t large_swarm = 450;
+  constexpr std::uint16_t large_swarm = 450;  // robots
   return robot.self.root_size > large_swarm;
 }
 

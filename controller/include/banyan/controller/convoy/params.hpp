@@ -33,7 +33,7 @@ struct ConvoyParams : PowerParams {
 
 // A length between robots that have arrived: with thrift nearer to G, which no edge outgrows.
 [[nodiscard]] inline float thrifty(const ConvoyParams& params, float length) noexcept {
-  constexpr float most = 0.7F;
+  constexpr float most = 0.7F;  // of the rest of the way to G
   return length + most * params.thrift * (params.ideal_distance - length);
 }
 

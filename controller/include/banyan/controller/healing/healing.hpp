@@ -59,7 +59,7 @@ void note_start(HealingRobot& robot) noexcept;
 [[nodiscard]] bool awaits_others(const HealingRobot& robot, Vec2& u) noexcept;
 // In the first rounds of such a start a silence is rather a burst than a death.
 [[nodiscard]] inline bool starts_thin(const HealingState& self) noexcept {
-  constexpr int start_ticks = 50;
+  constexpr int start_ticks = 50;  // the first rounds
   return self.neighbors_at_start > 0 && self.turn < start_ticks;
 }
 // Packets get lost in such a start.

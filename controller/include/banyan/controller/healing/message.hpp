@@ -52,21 +52,19 @@ constexpr void set_burst(TreeMessage& m, std::uint8_t ticks) noexcept {
 template <class Visitor, class M> constexpr void visit_healing_block(Visitor& visit, M& m) noexcept {
   visit.flag("root_told", "1: knows where the root is", m.root_told);
   visit.flag("task_reached", "1: the holder of `task` is at the target", m.task_reached);
-  visit.flag("task_silent",
-             "1: the robots that heard the holder of `task` last no longer hear it; without holder, it is put off",
-             m.task_silent);
+  visit.flag("task_silent", "1: the holder of `task` is in doubt; without holder: put off", m.task_silent);
   visit.flag("task_below", "1: the holder of `task` is the sender, or below it in the tree", m.task_below);
   visit.flag("forgets", "1: some robot has had no room for a target", m.forgets);
-  visit.count("root_size", "robots that this root counted last, 0: none yet", m.root_size);
+  visit.count("root_size", "robots that the root counted last, 0: none yet", m.root_size);
   visit.number("heartbeat", "the root's count of ticks, modulo 65536", m.heartbeat);
   visit.robot("serves", "of a worker: its target, by the worker first sent there, -1: none", m.serves);
   visit.robot("told", "addressee of root and task, -1: nobody", m.told);
-  visit.coordinate("root_x", "where the root is, relative to `told`, along the edge from the sender to it", m.root_x);
+  visit.coordinate("root_x", "where the root is, relative to `told`, along the edge to it", m.root_x);
   visit.coordinate("root_y", "the same, to the left of that edge", m.root_y);
   visit.robot("task", "a target, by the worker first sent there, -1: none", m.task_serves);
   visit.robot("task_holder", "the robot that serves it, -1: given up", m.task_holder);
   visit.number("task_beat", "the holder's count of ticks, modulo 65536", m.task_beat);
-  visit.coordinate("task_x", "where it is, relative to `told`, along the edge from the sender to it", m.task_x);
+  visit.coordinate("task_x", "where the target is, relative to `told`, along the edge to it", m.task_x);
   visit.coordinate("task_y", "the same, to the left of that edge", m.task_y);
 }
 

@@ -47,7 +47,7 @@ struct HealingRobot : TreeRobot {
 // A neighbour silent for longer will be forgotten within two ticks, or at the next step where steps are longer: this
 // is the last moment at which its message can be read.
 [[nodiscard]] inline int fading_ticks(const HealingRobot& robot) noexcept {
-  constexpr int notice_ticks = 2;
+  constexpr int notice_ticks = 2;  // before it is forgotten
   return robot.liveness_ticks() - std::max(notice_ticks, robot.elapsed_ticks);
 }
 [[nodiscard]] inline bool fades(const HealingRobot& robot, int k) noexcept {

@@ -38,7 +38,7 @@ template <class T> struct TaskList {
   [[nodiscard]] T* end() const noexcept { return last; }
 };
 
-inline constexpr std::uint8_t most_put_off = 7;
+inline constexpr std::uint8_t most_put_off = 7;  // times; more are not counted
 inline constexpr std::uint16_t first_gap = 200;  // sixteenths of ticks: taken for granted at first
 
 // The progress of a worker (progress.cpp).

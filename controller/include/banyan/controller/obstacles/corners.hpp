@@ -21,10 +21,11 @@ struct CornerStanding {
 // The obstacles block, field by field (wire.hpp).
 template <class Visitor, class M> constexpr void visit_corner_block(Visitor& visit, M& m) noexcept {
   visit.flag("pinned", "1: a corner is about to cut the edge to the parent", m.pinned);
-  visit.coordinate("hinge_x",
-                   "known obstacle point nearest to the edge to the parent, relative to the parent, along that edge",
-                   m.hinge_x);
-  visit.coordinate("hinge_y", "the same, to the left of that edge; 0, 0: none", m.hinge_y);
+  visit.coordinate(
+      "hinge_x",
+      "known obstacle point nearest to the edge to the parent, relative to the parent, along that edge; 0, 0: none",
+      m.hinge_x);
+  visit.coordinate("hinge_y", "the same, to the left of that edge", m.hinge_y);
 }
 
 // Points of obstacles that were sensed a while ago, in the own frame, C.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Lines of sight as a robot can judge them: between points of its own frame, past the robots it
-// knows of. A body in between will silence a radio that needs a free line (protocol 11).
+// knows of. A body in between will silence a radio that needs a free line.
 #pragma once
 
 #include "banyan/controller/core/function_ref.hpp"

@@ -23,7 +23,7 @@ struct PowerStanding {
 
 template <class Visitor, class M> constexpr void visit_power_block(Visitor& visit, M& m) noexcept {
   visit.flag("leaving", "1: has to be relieved", m.leaving);
-  visit.flag("in_place", "1: stands beside the child that it relieves, whose children may change to it", m.in_place);
+  visit.flag("in_place", "1: stands beside the child that it relieves", m.in_place);
   visit.known("level", "charge, 254 is full, -1: not known", m.level);
   visit.known("place_hops", "hops to a robot at a charging place, 0: is there, -1: no way known", m.place_hops);
   visit.robot("relieves", "the child whose place in the tree the sender takes, -1: none", m.relieves);

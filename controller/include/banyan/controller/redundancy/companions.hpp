@@ -20,7 +20,7 @@ namespace banyan {
 
 // Workers drive a little slower than they could, so that companions keep up with the chains.
 [[nodiscard]] inline float worker_pace(const ConvoyParams& params) noexcept {
-  constexpr float with_companions = 0.85F;
+  constexpr float with_companions = 0.85F;  // of its speed
   return has_companions(params) ? with_companions : 1.0F;
 }
 

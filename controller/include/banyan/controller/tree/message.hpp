@@ -51,7 +51,7 @@ struct TreeStanding : TreeTies {
   float q_y = 0.0F;
   Phase phase = Phase::init;
   Need need = Need::no_need;
-  bool flood_done = false;                // START echo: my flood subtree is complete (protocol 4)
+  bool flood_done = false;                // START echo: my flood subtree is complete (protocol 5)
   bool committed = false;                 // I am in this epoch's tree
   bool parent_silent = false;             // my parent has not been heard for longer than I
   std::uint8_t call_hops = nobody_calls;  // hops to an edge whose need no spare has answered
@@ -105,42 +105,41 @@ template <class Visitor, class M> constexpr void visit_tree_block(Visitor& visit
   visit.choice("need", "of the edge to the parent: 0 no_need, 1 need, 2 await", m.need, 2, Need::await);
   visit.flag("committed", "1: in this epoch's tree", m.committed);
   visit.flag("flood_done", "1: all robots below in the flood have answered", m.flood_done);
-  visit.flag("parent_silent", "1: the parent has not been heard for too long", m.parent_silent);
-  visit.robot("id", "of the sender", m.id);
+  visit.flag("parent_silent", "1: the parent has not been heard for longer than I", m.parent_silent);
+  visit.robot("id", "of the sender, never -1", m.id);
   visit.number("epoch", "counts the trees", m.epoch);
   visit.number("root_sequence", "newest root token known: sequence", m.root.sequence);
   visit.robot("root_id", "newest root token known: holder, -1: nobody", m.root.id);
-  visit.known("label", "distance to the root along hops when the epoch began, in C / 256, -1: unknown", m.label);
+  visit.known("label", "distance to the root along hops, in C / 256, -1: none yet", m.label);
   visit.number("seqno", "the root's count as it came down the tree", m.seqno);
-  visit.number("depth", "in the tree, root 1; 0: no path of tree edges to the root", m.depth);
+  visit.number("depth", "in the tree, 1 at the root; 0: no path of tree edges to the root", m.depth);
   visit.known("tree_hops", "hops over free spares to the rooted tree, 0: in it, -1: no way known", m.tree_hops);
-  visit.known("call_hops", "hops to a need that nobody answers, -1: nobody calls", m.call_hops);
-  visit.robot("parent", "robot, -1: nobody", m.parent);
-  visit.robot("old_parent", "in the old tree while trees are switched, -1: nobody", m.old_parent);
+  visit.known("call_hops", "hops to a need that no spare answers, from 128 on for a companion, -1: nobody calls",
+              m.call_hops);
+  visit.robot("parent", "in this epoch's tree, -1: nobody", m.parent);
+  visit.robot("old_parent", "in the last epoch's tree, until GROW TREE, -1: nobody", m.old_parent);
   visit.robot("flood_parent", "the neighbour that gave the label, -1: nobody", m.flood_parent);
   visit.count("flood_robots", "robots labelled through this one, itself included", m.flood_robots);
   visit.count("flood_workers", "workers among them", m.flood_workers);
   visit.count("subtree", "1 + sum over the children", m.subtree);
   visit.count("subtree_workers", "workers among them", m.subtree_workers);
-  if (heals)
-    visit.robot("hears", "a neighbour that the sender hears, by ascending ids; its own id: come nearer, -1: none",
-                m.count);
+  if (heals) visit.robot("hears", "a neighbour that the sender hears; its own id: come nearer, -1: nobody", m.count);
   else visit.count("count", "c of Alg. 2; no rule uses it", m.count);
   visit.scaled("want", "largest remaining way of a worker below, 0: all have arrived", m.want, per_range);
-  visit.real("q_x", "Alg. 1's contribution, along the edge from the sender to its parent", m.q_x, q_limit);
+  visit.real("q_x", "Alg. 1's contribution, along the edge to the parent", m.q_x, q_limit);
   visit.real("q_y", "the same, to the left of that edge", m.q_y, q_limit);
-  visit.scaled("pull_x", "attraction to the targets below, along the edge from the sender to its parent, -2 to 2",
-               m.pull_x, pull_unit);
+  visit.scaled("pull_x", "attraction to the targets below, -2 to 2, along the edge to the parent", m.pull_x, pull_unit);
   visit.scaled("pull_y", "the same, to the left of that edge", m.pull_y, pull_unit);
   visit.robot("grant", "the spare let into the edge to the parent; without a parent: the hold, -1: nobody", m.grant);
-  visit.robot("request", "the owner of the edge a spare wants to join, -1: nobody", m.request);
+  visit.robot("request", "the owner of the edge a spare wants to join; own id: needs a companion, -1: nobody",
+              m.request);
   visit.robot("inserted_child", "the robot above which the sender has just been inserted, -1: nobody",
               m.inserted_child);
   visit.robot("new_root", "the robot to which the root token is offered, -1: nobody", m.new_root);
   visit.coordinate(
       "centroid_x",
-      "with the offer: centroid relative to that robot, along the edge to it; with none: the longest burst of "
-      "loss known, ticks / 256",
+      "centroid relative to `new_root`, along the edge to it; without an offer: the longest burst known, in "
+      "ticks / 256",
       m.centroid_x);
   visit.coordinate("centroid_y", "the same, to the left of that edge", m.centroid_y);
 }

@@ -31,7 +31,7 @@ struct TreeParams : Machine {
   float call_after_rounds = 20.0F;  // a need unanswered for this long calls spares from afar (corrected; protocol 7)
   float connector_rounds = 30.0F;   // childless connector turns spare (protocol 3)
   float centroid_margin = 0.025F;   // a better root is closer by more than this (protocol 8)
-  float arrival_distance = 0.1F;    // a worker's pull fades within this (protocol 9)
+  float arrival_distance = 0.1F;    // a worker's pull fades within this (protocol 5)
   float speed_gain = 1.0F;          // K: speed per unit of u
 };
 

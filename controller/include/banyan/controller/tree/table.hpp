@@ -16,7 +16,7 @@ namespace banyan {
 // A neighbour deaf for longer does not hear me. One that has heard me may be deaf to me for a while because packets get
 // lost; one that never has counts from the second number, and has the time between that an answer takes with latency.
 inline constexpr std::uint8_t deaf_after_ticks = 120;
-inline constexpr std::uint8_t never_heard_ticks = 110;
+inline constexpr std::uint8_t never_heard_ticks = 110;  // from here one counts that has never heard me
 
 struct TreeTable : Neighbors {
   Rows members;  // of the tree: no spares
