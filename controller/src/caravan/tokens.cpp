@@ -268,6 +268,10 @@ void follow_orders(Robot& robot, const Orders& orders) noexcept {
     self.serves = nobody;
   if (orders.sent && (!self.was_sent || called_back)) self.serves = self.id;
   self.was_sent = orders.sent;
+  // Who was sent there first tells it even if nobody serves the target now: a spare would try again.
+  for (const RobotId ended : {called_back ? self.id : nobody, orders.given_up})
+    if (Token* t = ended == nobody ? nullptr : find(self, ended); t != nullptr && t->holder != nobody)
+      announce(*t, nobody);
 }
 
 void keep_tokens(Robot& robot, const Orders& orders) noexcept {

@@ -206,6 +206,20 @@ TEST(CaravanTokens, AWorkerThatWaitsForSparesInVainPutsItsTargetOffAndTriesAgain
   EXPECT_LT(paused, 14 * drive);
 }
 
+TEST(CaravanTokens, ATargetThatIsGivenUpWhileItIsPutOffIsNotTriedAgain) {
+  TinyWorld world({{0, 0}, {0.5F, 0}}, {1});
+  world.send(1, {3.0F, 0});
+  world.hold(0);
+  const int drive = world.params.rounds(1.0F);
+  world.until(20 * drive, [&] { return world.holders(1).empty(); });
+  world.steps(drive);
+  world.call_back(1);
+  for (int t = 0; t < 40 * drive; ++t) {
+    world.step();
+    ASSERT_TRUE(world.holders(1).empty()) << t;
+  }
+}
+
 TEST(CaravanTokens, AWorkerWhoseMotorsFailLeavesItsTargetToAnother) {
   TinyWorld world = camp();
   world.send(1, {0.7F, 0.9F});
