@@ -54,7 +54,7 @@ void draw_start(Dice& dice, Scenario& s) {
 }
 
 void draw_targets(Dice& dice, Scenario& s, bool plain) {
-  const bool many = !plain && dice.once_in(16);  // 5 % of all
+  const bool many = !plain && dice.once_in(16);  // one in twenty of all
   const std::size_t count = many ? 13 + dice.below(88) : 1 + dice.below(12);
   const double radius = rounded(dice.between(1.0, 4.5) * s.radio.range_m, 0.01);
   if (dice.once_in(3)) s.targets = RingTargets{count, radius, dice.between(0.0, 6.28), {}};

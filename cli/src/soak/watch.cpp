@@ -24,7 +24,7 @@ constexpr std::uint64_t hidden_ticks = 3;  // that an edge may be hidden
 constexpr double two_roots_s = 5.0;        // that a hand-over may take
 constexpr double after_completion_s = 10.0;
 constexpr double after_event_s = 50.0;
-constexpr double most_loss = 0.3;  // of the packets, over the links of the start, that convoy is made for
+constexpr double most_loss = 0.3;      // of the packets, over the links of the start, that convoy is made for
 constexpr double longest_link = 0.95;  // of C, over which a start has to be joined for its network to be promised whole
 constexpr double rounding = 1e-9;
 constexpr double surely = 4.0;  // standard deviations of the noise of wheels
@@ -253,8 +253,8 @@ SoakOutcome watch(const Scenario& scenario, bool twice) {
 bool is_promised(const std::string& kind, const Scenario& scenario) {
   if (kind == "crash" || kind == "not-a-number" || kind == "not-reproducible") return true;
   const Traits t = traits_of(scenario);
-  const bool calm = !t.deaths && !t.noise && !t.obstacles && !t.changes && !t.clocks && !t.small_radio &&
-                    !t.rough_radio && !t.many;
+  const bool calm =
+      !t.deaths && !t.noise && !t.obstacles && !t.changes && !t.clocks && !t.small_radio && !t.rough_radio && !t.many;
   return kind == "split" && calm && starts_joined(scenario);
 }
 

@@ -16,7 +16,7 @@ namespace banyan {
 // Neighbour k is a worker that has arrived: it may be the parent of others whose workers have arrived.
 [[nodiscard]] bool is_relay(const ConvoyRobot& robot, int k) noexcept;
 
-// A worker at its target passes on the pull of its children instead of its own; of a child that is stuck, where it is.
+// A worker at its target passes on the pull of its children instead of its own.
 [[nodiscard]] bool passes_pull_on(const ConvoyRobot& robot, Vec2& pull) noexcept;
 
 // A robot of the tree: a worker drives to its target, a connector follows the children that tow it;
