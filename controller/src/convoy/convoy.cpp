@@ -32,7 +32,7 @@ constexpr float tight = 0.6F;         // of `clearance`: enough for a spare in t
 constexpr float rests_within = 0.4F;  // of the tolerance: a worker so near to its target need not come nearer
 constexpr float late = 2.0F;          // times `call_after_rounds`: until then an edge that is towed late may shorten
 
-// ---- Select Parent: branches grow from the workers, as in inwards, by short edges in sight (rule 1) ----
+// ---- Select Parent: branches grow from the workers, as in inwards, by short edges in sight ----
 
 // An edge of the last tree, in either direction.
 bool was_edge(const ConvoyRobot& robot, int k) noexcept {
@@ -79,7 +79,7 @@ bool is_better_parent(const ConvoyRobot& robot, int a, int b) noexcept {
   return pa.rank != pb.rank ? pa.rank < pb.rank : pa.key < pb.key;
 }
 
-// ---- Grow Tree: which edges get a spare, and when (rules 3, 4 and 7) ----
+// ---- Grow Tree: which edges get a spare, and when ----
 
 // My parent is a worker, which cannot be towed, and my target is out of reach from where it goes.
 bool is_anchored(const ConvoyRobot& robot) noexcept {

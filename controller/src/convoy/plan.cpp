@@ -147,7 +147,7 @@ void command(ConvoyRobot& robot) noexcept {
     self.hosts[k] = self.plan_level[k] > self.plan_levels - self.plan_steps ? self.planned[k] : nobody;
 }
 
-// ---- The root: too few robots (rule 15) ----
+// ---- The root: too few robots ----
 
 // Of the targets not yet reached, the one without which the shortest tree takes fewest robots; while one is tried
 // again, only that one: no other is lost for it.

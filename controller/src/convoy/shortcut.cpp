@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which change of parent comes first, and rule 5: shortening branches.
+// Which change of parent comes first, and shortening branches.
 #include "banyan/controller/convoy/shortcut.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How convoy moves (docs/convoy.md, rules 2, 6, 7 and 8).
+// How convoy moves (docs/convoy.md).
 #include <algorithm>
 
 #include "banyan/controller/convoy/handing_on.hpp"

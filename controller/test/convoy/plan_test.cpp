@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Chains from target to target: what the root plans, how the plan travels down the tree, and how the
-// topmost robot of a branch leads it (docs/convoy.md, rule 11).
+// topmost robot of a branch leads it (docs/convoy.md).
 #include "banyan/controller/convoy/plan.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Convoy's rules for fewer robots: who re-parents to whom once all workers below have arrived, and
-// how a branch slides together (docs/convoy.md, rule 9).
+// how a branch slides together (docs/convoy.md).
 #include "banyan/controller/convoy/shortcut.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Chains from target to target (docs/convoy.md, rule 11). What robots see locally never finds an edge
+// Chains from target to target (docs/convoy.md). What robots see locally never finds an edge
 // between two distant targets; but all robots are told where the targets are (healing.hpp). Once all
 // workers have arrived, the root plans a tree through the targets if that takes fewer robots than the
 // tree has: for each target a host, the target where its branch is to begin. The plan travels down the

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What changes convoy's tree between reconstructions (docs/convoy.md): branches are shortened
-// (shortcut.cpp, rule 5), kept in sight (link_repair.cpp, rule 6) and, once their workers have arrived,
-// pruned (pruning.cpp, rule 9). Every new parent is ahead of the robot that takes it (parent_selection.hpp).
+// (shortcut.cpp), kept in sight (link_repair.cpp) and, once their workers have arrived,
+// pruned (pruning.cpp). Every new parent is ahead of the robot that takes it (parent_selection.hpp).
 #pragma once
 
 #include "banyan/controller/convoy/robot.hpp"

@@ -9,7 +9,7 @@
 
 namespace banyan {
 
-// Whether branches that have arrived save robots (rule 9) at all: merge_distance 0 switches it off.
+// Whether branches that have arrived save robots at all: merge_distance 0 switches it off.
 [[nodiscard]] bool prunes(const ConvoyParams& params) noexcept;
 // There are workers below me, and all stand at their targets: my branch may save robots.
 [[nodiscard]] bool has_arrived(const ConvoyRobot& robot) noexcept;

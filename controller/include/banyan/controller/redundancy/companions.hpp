@@ -2,7 +2,7 @@
 // A second path (docs/lasting.md): beside each robot that the tree depends on stands a spare, its companion, which
 // hears the same tree neighbours. If either dies, what was below it is still joined to what was above, by physical
 // links that are there already; the tree takes the companion as the new parent within two ticks (link repair,
-// docs/convoy.md, rule 6). A companion stays a spare: it answers edges in need as others do. With
+// docs/convoy.md). A companion stays a spare: it answers edges in need as others do. With
 // mission.link_redundancy = k each such robot has k - 1 companions, so any k - 1 robots may die at once. Messages do
 // not grow: a spare says beside whom it stands in the field `below`, which means nothing of spares otherwise, calls for
 // companions share `call_hops`, and a robot of the tree that lacks a companion says its own id in `request`, which
