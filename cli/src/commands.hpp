@@ -169,6 +169,7 @@ struct KeysOptions {
   std::string prefix;
   bool json = false;
   bool markdown = false;
+  bool columns = false;
 };
 int keys_command(const KeysOptions& options);
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "banyan/algorithms/algorithms.hpp"
+#include "banyan/record/table.hpp"
 #include "commands.hpp"
 #include "terminal.hpp"
 
@@ -27,6 +28,10 @@ nlohmann::ordered_json json_of(const std::vector<KeyRow>& rows) {
 }  // namespace
 
 int keys_command(const KeysOptions& options) {
+  if (options.columns) {
+    print(record::columns_markdown());
+    return exit_done;
+  }
   if (options.markdown) {
     print(key_reference_markdown(algorithms()));
     return exit_done;

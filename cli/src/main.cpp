@@ -123,7 +123,8 @@ constexpr const char* argos_footer =
 constexpr const char* algorithms_footer = "Examples:\n  banyan algorithms\n  banyan algorithms inwards --json";
 
 constexpr const char* keys_footer =
-    "Examples:\n  banyan keys\n  banyan keys radio.\n  banyan keys --markdown > docs/scenario-keys.md";
+    "Examples:\n  banyan keys\n  banyan keys radio.\n  banyan keys --markdown > docs/scenario-keys.md\n"
+    "  banyan keys --columns > docs/columns.md";
 
 constexpr const char* tune_footer =
     "Writes best.toml (parameters for a scenario), tune.json, generations.csv and the figure fitness;\n"
@@ -438,6 +439,7 @@ void add_keys(CLI::App& app, std::function<int()>& action) {
   command->add_option("prefix", options->prefix, "only keys that begin with this")->type_name("PREFIX");
   command->add_flag("--json", options->json, "as JSON");
   command->add_flag("--markdown", options->markdown, "as the page docs/scenario-keys.md");
+  command->add_flag("--columns", options->columns, "the columns of results instead, as the page docs/columns.md");
   command->callback([options, &action] { action = [options] { return keys_command(*options); }; });
 
   auto word = std::make_shared<std::string>();

@@ -89,8 +89,7 @@ std::string paths_text(const measure::Run& run) {
           ? wanted + " asked for"
           : format("%s between targets and root for %.2f %% of the time from a drive after completion on",
                    wanted.c_str(), 100.0 * run.redundant_time_ratio);
-  text += format("; %u companions, with them %.2f times the bound of %u", run.companions, run.redundancy_ratio,
-                 run.redundancy_bound);
+  text += "; " + plural(run.companions, "companion");
   if (!run.single_targets.empty()) text += "; in the end fewer to targets " + run.single_targets;
   return text;
 }

@@ -4,10 +4,23 @@
 #include <algorithm>
 
 namespace banyan::measure {
+namespace {
 
-Effort::Effort(const world::World& world) : position_(world.positions().begin(), world.positions().end()) {
-  choice_.reserve(world.size());
-  for (const Report& report : world.reports()) choice_.push_back(of(report));
+using Row = Effort::Row;
+
+constexpr Column<Row> table[] = {
+    column<&Row::decisions>("decisions", "times a living robot has changed its role, parent or served target"),
+    quantity<&Row::driven_m>("driven_m", "the way of a robot, mean over the robots at the start",
+                             "metres driven per robot"),
+};
+
+}  // namespace
+
+std::span<const Column<Row>> Effort::columns() noexcept { return table; }
+
+Effort::Effort(const world::World& start) : position_(start.positions().begin(), start.positions().end()) {
+  choice_.reserve(start.size());
+  for (const Report& report : start.reports()) choice_.push_back(of(report));
 }
 
 void Effort::observe(const world::World& world) {
@@ -22,6 +35,11 @@ void Effort::observe(const world::World& world) {
     choice_[i] = choice;
   }
   std::copy(positions.begin(), positions.end(), position_.begin());
+}
+
+void Effort::sum_up(const Moment& end, Row& row) const {
+  row.decisions = decisions_;
+  row.driven_m = driven_m_ / static_cast<double>(end.world.size());
 }
 
 }  // namespace banyan::measure

@@ -5,6 +5,7 @@
 
 #include <Spectra/SymEigsShiftSolver.h>
 #include <Eigen/Dense>
+#include <Eigen/Sparse>
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +14,13 @@
 #include <string>
 
 #include "banyan/world/random.hpp"
-#include "ldlt.hpp"
 
 namespace banyan::measure {
 namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+using Vector = Eigen::VectorXd;
+using Factors = Eigen::SimplicialLDLT<SparseMatrix>;
 
 constexpr std::size_t dense_limit = 150;
 constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
@@ -46,7 +50,10 @@ class InverseOffConstants {
       : graph_{graph}, pause_{pause}, n_{static_cast<Eigen::Index>(graph.size())} {}
   [[nodiscard]] Eigen::Index rows() const { return n_; }
   [[nodiscard]] Eigen::Index cols() const { return n_; }
-  void set_shift(double sigma) { factors_.compute(shifted_laplacian(graph_, -sigma), pause_); }
+  void set_shift(double sigma) {
+    if (pause_) pause_();
+    factors_.compute(shifted_laplacian(graph_, -sigma));
+  }
   void perform_op(const double* in, double* out) const {
     if (pause_) pause_();
     const Eigen::Map<const Vector> x(in, n_);
@@ -59,7 +66,7 @@ class InverseOffConstants {
   const Graph& graph_;
   const std::function<void()>& pause_;
   Eigen::Index n_;
-  Ldlt factors_;
+  Factors factors_;
 };
 
 // x' L x / x' x off the constant vector: an upper bound of lambda_2, close to it when x is close
@@ -165,11 +172,11 @@ double Fiedler::flow_bound(const Graph& graph) {
 // pivots. One of them belongs to the constant vector. A pivot near zero makes the signs
 // unreliable: then the eigenvalue itself decides.
 bool Fiedler::below_by_factorisation(const Graph& graph, double threshold) {
-  Ldlt factors;
-  if (!factors.compute(shifted_laplacian(graph, -threshold), pause_) ||
-      factors.pivots().cwiseAbs().minCoeff() < 1e-6 * threshold)
+  if (pause_) pause_();
+  const Factors factors(shifted_laplacian(graph, -threshold));
+  if (factors.info() != Eigen::Success || factors.vectorD().cwiseAbs().minCoeff() < 1e-6 * threshold)
     return value(graph) < threshold;
-  return (factors.pivots().array() < 0.0).count() >= 2;
+  return (factors.vectorD().array() < 0.0).count() >= 2;
 }
 
 double Fiedler::value(const Graph& graph) {

@@ -4,7 +4,46 @@
 #include <algorithm>
 #include <limits>
 
+#include "banyan/measure/metrics.hpp"
+
 namespace banyan::measure {
+namespace {
+
+using Row = Lasting::Row;
+
+constexpr Column<Row> table[] = {
+    quantity<&Row::least_charge>(
+        "least_charge", "of any living robot at any time, as a share of a full battery; empty without batteries"),
+    quantity<&Row::mean_charge>("mean_charge", "of the living at the end; empty without batteries"),
+    column<&Row::swaps>("swaps", "robots of the tree with little charge that were relieved"),
+    column<&Row::broken_swaps>("broken_swaps", "of these, with a broken edge to either robot meanwhile"),
+    column<&Row::trips>("trips", "of spares to charging places, until they were charged or died"),
+    column<&Row::trips_arrived>("trips_arrived", "of these, those that ended in a slot"),
+    column<&Row::emptied>("emptied", "robots that died for want of charge"),
+    quantity<&Row::lasts_s>(
+        "lasts_s", "the charge is used up so long after the end at most; empty if it is not, or without batteries"),
+};
+
+}  // namespace
+
+std::span<const Column<Row>> Lasting::columns() noexcept { return table; }
+
+void Lasting::observe(const Moment& now, Row& row) {
+  observe(now.world);
+  now.tick.least_charge = least_;
+  now.tick.mean_charge = mean_;
+  if (least_ >= 0.0) row.least_charge = row.least_charge < 0.0 ? least_ : std::min(row.least_charge, least_);
+  row.mean_charge = mean_;
+}
+
+void Lasting::sum_up(const Moment& end, Row& row) const {
+  row.swaps = swaps_;
+  row.broken_swaps = broken_swaps_;
+  row.trips = trips();
+  row.trips_arrived = arrived_;
+  row.emptied = static_cast<std::uint32_t>(end.world.emptied());
+  row.lasts_s = lasts_s(end.world, end.run.mean_committed);
+}
 
 Lasting::Lasting(const world::World& world)
     : range_m_(world.scenario().radio.range_m),

@@ -4,8 +4,26 @@
 #include <algorithm>
 #include <limits>
 
+#include "banyan/measure/metrics.hpp"
+
 namespace banyan::measure {
 namespace {
+
+using Row = Redundancy::Row;
+
+constexpr Column<Row> table[] = {
+    column<&Row::link_redundancy>("link_redundancy", "mission.link_redundancy, k"),
+    column<&Row::companions>("companions", "spares that stand beside a robot of the tree at the end"),
+    ratio<&Row::redundant_time_ratio>(
+        "redundant_time_ratio",
+        "from a drive (C / v_max) after completion on, share of ticks with k disjoint paths; empty if k is 1",
+        "time with k disjoint paths (share)"),
+    column<&Row::severed_ticks>("severed_ticks", "of these, with living workers or the root cut off from each other"),
+    quantity<&Row::restored_s>("restored_s",
+                               "from the last death until there were k disjoint paths; empty if there never were"),
+    column<&Row::redundant_targets>("redundant_targets",
+                                    "active targets with k disjoint paths to the root at the end; 0 if k is 1"),
+};
 
 constexpr std::uint32_t not_there = UINT32_MAX;
 constexpr double settling_drives = 1.0;  // after completion
@@ -22,6 +40,31 @@ std::uint32_t count_companions(const world::World& world) noexcept {
   for (std::size_t i = 0; i < world.size(); ++i)
     if (world.alive()[i] != 0 && is_companion(world.reports()[i])) ++count;
   return count;
+}
+
+std::span<const Column<Row>> Redundancy::columns() noexcept { return table; }
+
+Redundancy::Redundancy(const world::World& start, Row& row) : Redundancy(start) { row.link_redundancy = wanted_; }
+
+void Redundancy::observe(const Moment& now, Row& /*row*/) {
+  observe(now.world, now.run.completion_time_s);
+  now.tick.disjoint_paths = paths_;
+}
+
+void Redundancy::sum_up(const Moment& end, Row& row) {
+  row.companions = count_companions(end.world);
+  if (wanted_ <= 1) return;
+  row.redundant_time_ratio = time_ratio();
+  row.severed_ticks = severed_;
+  row.restored_s = restored_s_;
+  const auto targets = end.world.targets();
+  const std::vector<std::uint32_t> paths = paths_of_targets(end.world);
+  auto of_target = paths.begin();
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    if (!targets[t].active) continue;
+    if (*of_target++ >= wanted_) ++row.redundant_targets;
+    else row.single_targets += (row.single_targets.empty() ? "" : " ") + std::to_string(t);
+  }
 }
 
 Redundancy::Redundancy(const world::World& world)

@@ -31,17 +31,23 @@ Account account_of(const world::Scenario& scenario) {
   return account;
 }
 
+using Number = double Run::*;
+using Count = std::uint32_t Run::*;
+
 void expect_same(const Run& a, const Run& b, const world::Factors& f) {
   EXPECT_EQ(b.ticks, a.ticks);
-  for (const auto time :
-       {&Run::time_s, &Run::completion_time_s, &Run::time_limit_s, &Run::time_bound_s, &Run::oracle_time_s,
-        &Run::liveness_period_s, &Run::last_death_s, &Run::recovery_time_s, &Run::lasts_s})
+  for (const Number time : std::initializer_list<Number>{
+           &Run::time_s, &Run::completion_time_s, &Run::time_limit_s, &Run::time_bound_s, &Run::oracle_time_s,
+           &Run::liveness_period_s, &Run::last_death_s, &Run::recovery_time_s, &Run::lasts_s})
     EXPECT_EQ(b.*time, a.*time < 0.0 ? a.*time : f.time * (a.*time));
-  for (const auto length : {&Run::network_length_m, &Run::driven_m}) EXPECT_EQ(b.*length, f.length * (a.*length));
-  for (const auto share :
-       {&Run::normalized_time, &Run::held_time_ratio, &Run::fiedler_time_ratio, &Run::least_charge, &Run::mean_charge})
+  for (const Number length : std::initializer_list<Number>{&Run::network_length_m, &Run::driven_m})
+    EXPECT_EQ(b.*length, f.length * (a.*length));
+  for (const Number share :
+       std::initializer_list<Number>{&Run::normalized_time, &Run::held_time_ratio, &Run::fiedler_time_ratio,
+                                     &Run::least_charge, &Run::mean_charge})
     EXPECT_EQ(b.*share, a.*share);
-  for (const auto count : {&Run::robots_bound, &Run::oracle_robots, &Run::oracle_targets, &Run::survivors})
+  for (const Count count :
+       std::initializer_list<Count>{&Run::robots_bound, &Run::oracle_robots, &Run::oracle_targets, &Run::survivors})
     EXPECT_EQ(b.*count, a.*count);
   EXPECT_EQ(b.split_ticks, a.split_ticks);
   EXPECT_EQ(b.broken_ticks, a.broken_ticks);

@@ -138,18 +138,9 @@ TEST(Table, ColumnsOfHealingAreThereOrEmpty) {
   EXPECT_EQ(after["time_ratio"], 1.125);
 }
 
-// The page names some by their ends only: `…_by_distance`.
-TEST(Table, EveryColumnIsInTheDocumentation) {
-  const std::string page = test::contents(BANYAN_SOURCE_DIR "/docs/file-formats.md");
-  ASSERT_FALSE(page.empty());
-  const auto documented = [&](std::string_view name) {
-    if (page.find("`" + std::string(name) + "`") != std::string::npos) return true;
-    const std::size_t by = name.find("_by_");
-    return by != std::string_view::npos && page.find("`…" + std::string(name.substr(by)) + "`") != std::string::npos;
-  };
-  for (const auto& column : run_columns()) EXPECT_TRUE(documented(column.name)) << column.name;
-  for (const auto& column : series_columns()) EXPECT_TRUE(documented(column.name)) << column.name;
-  EXPECT_FALSE(documented("no_such_column"));
+TEST(Table, TheReferenceOfColumnsIsUpToDate) {
+  EXPECT_EQ(test::contents(BANYAN_SOURCE_DIR "/docs/columns.md"), columns_markdown())
+      << "renew it: banyan keys --columns > docs/columns.md";
 }
 
 TEST(Table, AConfigurationThatIsNoJsonIsKeptAsText) {

@@ -18,7 +18,7 @@ py::dtype dtype_of(Item item) {
 }
 
 // A column of ticks: whole numbers stay whole, what is not available is NaN.
-py::array column_of(const record::Column<measure::Tick>& column, std::span<const measure::Tick> ticks) {
+py::array column_of(const measure::Column<measure::Tick>& column, std::span<const measure::Tick> ticks) {
   const auto length = static_cast<py::ssize_t>(ticks.size());
   const record::Cell sample = column.cell(measure::Tick{});
   if (std::holds_alternative<bool>(sample)) {

@@ -110,7 +110,7 @@ template <class T> [[nodiscard]] py::array_t<T> taken(std::vector<T> values, std
 [[nodiscard]] py::dict arrays_of(const std::shared_ptr<Block>& block, bool always);
 
 [[nodiscard]] py::object object_of(const record::Cell& cell);
-template <class Row> [[nodiscard]] py::dict row_of(std::span<const record::Column<Row>> columns, const Row& row) {
+template <class Columns, class Row> [[nodiscard]] py::dict row_of(const Columns& columns, const Row& row) {
   py::dict dict;
   for (const auto& column : columns) dict[py::str(std::string(column.name))] = object_of(column.cell(row));
   return dict;

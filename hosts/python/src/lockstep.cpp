@@ -99,7 +99,7 @@ class Lockstep {
     const world::World& of = world(w);
     const record::RunRow row{record::identify(of.scenario(), version, git_id()), places_[w].observer->result(of),
                              !places_[w].observer->finished()};
-    return row_of<record::RunRow>(record::run_columns(), row);
+    return row_of(record::run_columns(), row);
   }
 
   [[nodiscard]] std::size_t robots() const noexcept { return robots_; }

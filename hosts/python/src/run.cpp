@@ -110,7 +110,7 @@ py::dict run(const PyScenario& scenario, const std::string& folder, bool replace
   const record::RunRow row{record::identify(scenario.configuration.scenario, version, git_id()), end.run,
                            end.interrupted};
   py::dict result;
-  result["row"] = row_of<record::RunRow>(record::run_columns(), row);
+  result["row"] = row_of(record::run_columns(), row);
   result["frame"] = std::move(keeper.last);
   result["series"] = series ? py::object(table_of(keeper.ticks)) : py::none();
   result["trajectories"] = every > 0 ? py::object(tracks_of(keeper, robots)) : py::none();

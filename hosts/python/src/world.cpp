@@ -183,7 +183,7 @@ PyFrame frame_of(const PyWorld& w) {
 py::dict result_of(const PyWorld& w) {
   const record::RunRow row{record::identify(w.world.scenario(), version, git_id()), w.observer().result(w.world),
                            !w.observer().finished()};
-  return row_of<record::RunRow>(record::run_columns(), row);
+  return row_of(record::run_columns(), row);
 }
 
 std::string message_of(const PyWorld& w, std::size_t robot) {
@@ -251,8 +251,7 @@ void bind_world(py::module_& m) {
       .def_property_readonly("packets_sent", [](const PyWorld& w) { return w.world.packets_sent(); })
       .def_property_readonly("packets_received", [](const PyWorld& w) { return w.world.packets_received(); })
       .def_property_readonly("finished", [](const PyWorld& w) { return w.observer().finished(); })
-      .def("metrics_row",
-           [](const PyWorld& w) { return row_of<measure::Tick>(record::series_columns(), w.observer().last()); })
+      .def("metrics_row", [](const PyWorld& w) { return row_of(record::series_columns(), w.observer().last()); })
       .def("result_row", &result_of)
       .def("message_json", &message_of, py::arg("robot"))
       .def("frame", &frame_of)

@@ -5,18 +5,25 @@
 #include <cstdint>
 #include <vector>
 
-#include "banyan/world/world.hpp"
+#include "banyan/measure/moment.hpp"
 
 namespace banyan::measure {
 
 // From the truth and from reports, tick by tick. A tick costs O(robots) and allocates nothing.
 class Effort {
  public:
-  // The state of this world is what the first tick is compared with.
-  explicit Effort(const world::World& world);
+  struct Row {
+    std::uint64_t decisions = 0;
+    double driven_m = 0.0;  // mean over the robots at the start
+  };
+  [[nodiscard]] static std::span<const Column<Row>> columns() noexcept;
 
-  // Once per tick.
+  // The state of this world is what the first tick is compared with.
+  explicit Effort(const world::World& start);
+  Effort(const world::World& start, Row& /*row*/) : Effort(start) {}
   void observe(const world::World& world);
+  void observe(const Moment& now, Row& /*row*/) { observe(now.world); }
+  void sum_up(const Moment& end, Row& row) const;
 
   // By all robots, while they live: from its true position at each tick straight to that at the next. Being pushed is
   // driving, turning on the spot is not.

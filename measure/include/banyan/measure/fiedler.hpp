@@ -26,8 +26,8 @@ struct Graph {
 // object per series of graphs and thread.
 class Fiedler {
  public:
-  // Called every few milliseconds while a large matrix is factorised, and between the steps of an iteration; what it
-  // throws ends below() or value() at once, as if it had not been called.
+  // Called before a matrix is factorised, which takes seconds for tens of thousands of nodes, and between the steps of
+  // an iteration; what it throws ends below() or value() at once, as if it had not been called.
   void on_pause(std::function<void()> pause) { pause_ = std::move(pause); }
 
   // Connected components; for a connected graph also the eccentricity of node 0. O(n + m), no

@@ -5,17 +5,28 @@
 #include <cstdint>
 #include <vector>
 
-#include "banyan/world/world.hpp"
+#include "banyan/measure/moment.hpp"
 
 namespace banyan::measure {
 
 // From the truth and from reports, tick by tick. Without batteries it does nothing. O(edges log degree), no allocation.
 class Lasting {
  public:
-  explicit Lasting(const world::World& world);
+  struct Row {
+    double least_charge = -1.0;                  // of all living robots and ticks; -1: no batteries
+    double mean_charge = -1.0;                   // of the living at the end
+    std::uint64_t swaps = 0, broken_swaps = 0;   // robots of the tree relieved, and those with a broken edge meanwhile
+    std::uint64_t trips = 0, trips_arrived = 0;  // of spares to charging places
+    std::uint32_t emptied = 0;                   // robots that died for want of charge
+    double lasts_s = -1.0;  // the charge is used up so long after the end at most; -1: it is not, or no batteries
+  };
+  [[nodiscard]] static std::span<const Column<Row>> columns() noexcept;
 
-  // Once per tick.
+  explicit Lasting(const world::World& start);
+  Lasting(const world::World& start, Row& /*row*/) : Lasting(start) {}
   void observe(const world::World& world);
+  void observe(const Moment& now, Row& row);
+  void sum_up(const Moment& end, Row& row) const;
 
   // Of the living, now, as shares of a full battery; -1: none, or no batteries.
   [[nodiscard]] double least_charge() const noexcept { return least_; }

@@ -19,8 +19,8 @@ class Observer {
   // Call after each World::step. `exact_fiedler`: also compute lambda_2 itself (for plots), not
   // only whether it is below 1e-3. The reference is valid until the next call.
   const Tick& observe(const world::World& world, bool exact_fiedler = false);
-  // lambda_2 of tens of thousands of robots may take a minute: `asked` is called every few milliseconds meanwhile,
-  // and once it returns true the computation is given up. A value that was not found is that of the tick before.
+  // lambda_2 of tens of thousands of robots may take a minute: `asked` is called between its steps, and once it returns
+  // true the computation is given up. A value that was not found is that of the tick before.
   void stop_when(const std::function<bool()>& asked);
   [[nodiscard]] const Tick& last() const noexcept;
   [[nodiscard]] const Run& run() const noexcept;
@@ -35,6 +35,8 @@ class Observer {
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
+  bool stop_when_complete_;
+  double settle_s_, rounding_s_;
 };
 
 // The start of a run, before its first step, as a tick; for pictures and plots. The run's own observer counts

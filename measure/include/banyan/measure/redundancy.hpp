@@ -3,10 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "banyan/measure/disjoint_paths.hpp"
-#include "banyan/world/world.hpp"
+#include "banyan/measure/moment.hpp"
 
 namespace banyan::measure {
 
@@ -16,11 +17,25 @@ namespace banyan::measure {
 // dead and not replaced yet is left out. With one path it looks at nothing and costs nothing.
 class Redundancy {
  public:
-  // `paths`: k. What is counted begins a drive (world::drive_s) after the first completion.
-  explicit Redundancy(const world::World& world);
+  struct Row {
+    std::uint32_t link_redundancy = 1;  // k
+    std::uint32_t companions = 0;       // living spares that keep links, at the end
+    // From a drive after completion on, share of ticks with k paths; -1: k = 1, or none was counted.
+    double redundant_time_ratio = -1.0;
+    std::uint64_t severed_ticks = 0;      // of these, in which living workers or the root were cut off from each other
+    double restored_s = -1.0;             // from the last death until there were k paths; -1: not, or k = 1
+    std::uint32_t redundant_targets = 0;  // at the end, active targets with k disjoint paths to the root; 0 for k = 1
+    std::string single_targets;           // the others, by index, "0 3"
+  };
+  [[nodiscard]] static std::span<const Column<Row>> columns() noexcept;
 
-  // Once per tick. `completion_s`: when the run was first complete; negative: not yet.
+  // What is counted begins a drive (world::drive_s) after the first completion.
+  explicit Redundancy(const world::World& start);
+  Redundancy(const world::World& start, Row& row);
+  // `completion_s`: when the run was first complete; negative: not yet.
   void observe(const world::World& world, double completion_s);
+  void observe(const Moment& now, Row& row);
+  void sum_up(const Moment& end, Row& row);
 
   [[nodiscard]] std::uint32_t wanted() const noexcept { return wanted_; }
   // In the last tick: the least number of disjoint paths between two terminals, at most k; 0: cut off from each other.

@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "banyan/measure/metrics.hpp"
@@ -43,20 +42,15 @@ struct RunRow {
   bool interrupted = false;
 };
 
-// A cell; monostate is "not available": an empty CSV field, null in JSON.
-using Cell = std::variant<std::monostate, bool, std::uint64_t, double, std::string>;
+using measure::Cell;
 
-template <class Row> struct Column {
-  std::string_view name;  // snake_case, with its unit
-  std::string_view meaning;
-  int decimals;  // of a double
-  Cell (*cell)(const Row&);
-  std::string_view in_figures = {};  // what figures call it; "": its name without underscores
-};
-[[nodiscard]] std::span<const Column<RunRow>> run_columns() noexcept;
+[[nodiscard]] std::span<const measure::ColumnIn<RunRow>> run_columns();
 // The last of these: how the run went. Those before them identify it.
-[[nodiscard]] std::span<const Column<RunRow>> result_columns() noexcept;
-[[nodiscard]] std::span<const Column<measure::Tick>> series_columns() noexcept;
+[[nodiscard]] std::span<const measure::ColumnIn<RunRow>> result_columns();
+[[nodiscard]] std::span<const measure::Column<measure::Tick>> series_columns() noexcept;
+
+// All of them with their meanings: the page docs/columns.md.
+[[nodiscard]] std::string columns_markdown();
 
 // Lines without their end; RFC 4180 quoting.
 [[nodiscard]] std::string run_csv_header();

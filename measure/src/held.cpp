@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/measure/held.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "banyan/measure/metrics.hpp"
+#include "tree_view.hpp"
+
+namespace banyan::measure {
+namespace {
+
+using Row = Held::Row;
+
+constexpr Column<Row> table[] = {
+    ratio<&Row::held_time_ratio>("held_time_ratio",
+                                 "from completion on, mean share of the targets that are held; empty if never complete",
+                                 "share of targets held once complete"),
+    ratio<&Row::unheld_time_ratio_by_death>(
+        "unheld_time_ratio_by_death",
+        "of the rest, the part from a worker's death at its target until it is held again; empty if never complete",
+        "share of targets not held by workers' deaths"),
+    ratio<&Row::held_ratio>("held_ratio", "share of the active targets that are held at the end"),
+    column<&Row::held_targets>("held_targets",
+                               "active targets held at the end by a worker that the tree joins to a root"),
+    column<&Row::missed_targets>("missed_targets", "the other active targets, by index, each with the reason"),
+    column<&Row::lost_holders>("lost_holders", "workers that died at their targets",
+                               "workers that died at their targets"),
+    quantity<&Row::held_again_s>(
+        "held_again_s",
+        "from then until such a target was held again, median; empty if none was lost or half never were",
+        "target held again after (s, median)"),
+};
+
+std::string metres(double m) {
+  std::array<char, 32> text{};
+  static_cast<void>(std::snprintf(text.data(), text.size(), "%.2f m", m));  // always fits
+  return text.data();
+}
+
+// Whether parents, in a reconstruction old ones, lead from robot i to a living root.
+bool is_joined_to_root(const world::World& world, std::size_t i) {
+  for (std::size_t steps = 0; i < world.size() && steps <= world.size(); ++steps) {
+    if (!is_of_tree(world, i)) return false;
+    const Report& m = world.reports()[i];
+    if (m.role == Role::root) return true;
+    i = up_of(m);
+  }
+  return false;
+}
+
+// "": held by a worker that the tree joins to a root.
+std::string why_not_held(const world::World& world, const world::Target& target, double tolerance_m) {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    const Report& m = world.reports()[i];
+    if (m.role != Role::worker || world.alive()[i] == 0 || m.serves != target.worker) continue;
+    const double distance_m = distance(world.positions()[i], target.position);
+    nearest_m = std::min(nearest_m, distance_m);
+    if (distance_m <= tolerance_m && is_joined_to_root(world, i)) return "";
+  }
+  return std::isinf(nearest_m) ? "given up" : nearest_m <= tolerance_m ? "cut off" : metres(nearest_m) + " short";
+}
+
+}  // namespace
+
+std::span<const Column<Row>> Held::columns() noexcept { return table; }
+
+Held::Held(const world::World& start, Row& /*row*/)
+    : tolerance_m_(world::target_tolerance_m(start.scenario())), takeovers_(start.scenario().tick_s) {}
+
+void Held::observe(const Moment& now, Row& row) {
+  takeovers_.observe(now.holders, now.world.targets(), now.world.alive());
+  row.held_ratio = now.tick.held_share();
+  if (!now.run.complete) return;
+  ++ticks_;
+  held_sum_ += row.held_ratio;
+  if (now.tick.active_targets > 0)
+    waiting_by_death_ += static_cast<double>(takeovers_.waiting()) / static_cast<double>(now.tick.active_targets);
+}
+
+void Held::sum_up(const Moment& end, Row& row) const {
+  if (ticks_ > 0) {
+    row.held_time_ratio = held_sum_ / static_cast<double>(ticks_);
+    row.unheld_time_ratio_by_death = waiting_by_death_ / static_cast<double>(ticks_);
+  }
+  row.lost_holders = takeovers_.lost();
+  row.held_again_s = takeovers_.median_s();
+  const auto targets = end.world.targets();
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    if (!targets[t].active) continue;
+    const std::string why = why_not_held(end.world, targets[t], tolerance_m_);
+    if (why.empty()) ++row.held_targets;
+    else row.missed_targets += (row.missed_targets.empty() ? "" : ", ") + std::to_string(t) + " " + why;
+  }
+}
+
+}  // namespace banyan::measure

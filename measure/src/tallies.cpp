@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/measure/tallies.hpp"
+
+#include "banyan/measure/metrics.hpp"
+
+namespace banyan::measure {
+namespace {
+
+using Row = Tallies::Row;
+
+constexpr Column<Row> table[] = {
+    column<&Row::insertions>("insertions", "spares inserted into edges"),
+    column<&Row::handovers>("handovers", "times the root role was handed over"),
+    column<&Row::repairs>("repairs", "lost parents replaced and orphans re-attached"),
+    column<&Row::elections>("elections", "times a robot made itself root because the root had fallen silent"),
+    column<&Row::replacements>("replacements", "times a robot took over the target of a silent worker"),
+    quantity<&Row::bytes_per_robot_s>("bytes_per_robot_s", "broadcast", "bytes per robot and second"),
+    column<&Row::messages>("messages", "broadcast by all robots"),
+};
+
+}  // namespace
+
+std::span<const Column<Row>> Tallies::columns() noexcept { return table; }
+
+void Tallies::sum_up(const Moment& end, Row& row) const {
+  row = {};
+  const auto reports = end.world.reports();
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const auto& tally = reports[i].tally;
+    row.insertions += tally.insertions;
+    row.handovers += tally.handovers;
+    row.repairs += tally.repairs;
+    row.elections += tally.elections;
+    row.replacements += tally.replacements;
+    if (tally.rejected == 0) continue;
+    row.rejected += tally.rejected;
+    row.rejected_by += (row.rejected_by.empty() ? "" : ", ") + std::to_string(i);
+  }
+  row.messages = end.world.packets_sent();
+  const double robot_s = static_cast<double>(end.world.size()) * end.run.time_s;
+  if (robot_s > 0.0)
+    row.bytes_per_robot_s = static_cast<double>(row.messages * end.world.swarm().message_bytes()) / robot_s;
+}
+
+}  // namespace banyan::measure
