@@ -188,13 +188,18 @@ void check_proportions(FaultList& list, const Scenario& scenario) {
 
 // mission.time_limit_s, as it is given or as it follows.
 void check_time_limit(FaultList& list, const Scenario& scenario) {
-  if (time_limit_s(scenario) >= scenario.tick_s) return;
-  list.fail("mission.time_limit_s",
-            scenario.mission.time_limit_s > 0.0
-                ? "is " + short_text(scenario.mission.time_limit_s) +
-                      " s, shorter than a tick: give at least tick_s = " + short_text(scenario.tick_s) +
-                      " s, or 0 for ten times a straight drive to the farthest target"
-                : "must be given when no target is away from swarm.start.center_m");
+  const double limit_s = time_limit_s(scenario);
+  if (limit_s >= scenario.tick_s) return;
+  const std::string least = "give at least tick_s = " + short_text(scenario.tick_s) + " s";
+  if (scenario.mission.time_limit_s > 0.0)
+    list.fail("mission.time_limit_s", "is " + short_text(limit_s) + " s, shorter than a tick: " + least +
+                                          ", or 0 for ten times a straight drive to the farthest target");
+  else if (limit_s > 0.0)
+    list.fail("mission.time_limit_s", "is not given, and ten times a straight drive to the farthest target is " +
+                                          short_text(limit_s) + " s, shorter than a tick: " + least);
+  else
+    list.fail("mission.time_limit_s",
+              "is not given, and no target is away from swarm.start.center_m, so that no limit follows: " + least);
 }
 
 // The keys of the scenario's own parameters that the text names.

@@ -50,7 +50,7 @@ const std::vector<Case>& cases() {
       {"mission.settle_s", "-1", [](Scenario& s) { s.mission.settle_s = -1; }},
       {"mission.link_redundancy", "is 2, but inwards keeps one path; of those here, more are kept by convoy",
        [](Scenario& s) { s.mission.algorithm = "inwards", s.mission.link_redundancy = 2; }},
-      {"mission.time_limit_s", "must be given",
+      {"mission.time_limit_s", "is not given, and no target is away from swarm.start.center_m",
        [](Scenario& s) {
          s.swarm.robots = 9, s.targets = RingTargets{3, 0.0, 0, {}};
        }},
@@ -158,6 +158,12 @@ const std::vector<Case>& cases() {
        [](Scenario& s) { s.robot.wheel_limit_m_s = 100.0; }},
       {"mission.time_limit_s", "is 0.04 s, shorter than a tick: give at least tick_s = 0.1 s",
        [](Scenario& s) { s.mission.time_limit_s = 0.04; }},
+      {"mission.time_limit_s",
+       "is not given, and ten times a straight drive to the farthest target is 0.05 s, shorter than a tick: give at "
+       "least tick_s = 0.1 s",
+       [](Scenario& s) {
+         s.targets = std::vector<Vec2>{{0.001, 0}};
+       }},
       {"targets.positions_m[1]",
        "target 1 at (0, 401) is 401 m from swarm.start.center_m, farther than 200 * radio.range_m = 400 m",
        [](Scenario& s) {
