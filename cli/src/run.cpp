@@ -143,7 +143,7 @@ int keep_run(const Configuration& configuration, const RunOutputs& outputs, cons
 
   const record::RunRow row{record::identify(configuration.scenario, version, git_id()), end.run, end.interrupted};
   if (options.json) print(record::run_json(row, wanted.provenance.config_json));
-  else if (!options.quiet) print(summary_text(row, configuration, outputs, extras));
+  else if (!options.quiet) print_text(summary_text(row, configuration, outputs, extras));
   if (complaints.any()) return exit_lost;
   if (!end.interrupted) return exit_done;
   complain(format("stopped by %s at %.1f s; what was done until then is in %s", stop_signal_name(), end.run.time_s,

@@ -12,6 +12,7 @@
 
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
+#include "banyan/controller/core/printable.hpp"
 #include "banyan/record/file.hpp"
 #include "started_program.hpp"
 
@@ -296,6 +297,43 @@ TEST_F(Program, ValidateSpeaksJsonAndShowsWhatAScenarioStandsFor) {
   const auto again = config::parse_configuration("shown.toml", shown.out, algorithms());
   ASSERT_TRUE(again.ok());
   EXPECT_EQ(again.configuration.scenario.radio.loss, 0.5);
+}
+
+// A terminal would obey them: rename its window, clear its screen, show a line that nobody wrote.
+TEST_F(Program, NoControlCharacterReachesTheTerminal) {
+  const std::string evil = "\x1b]0;owned\a\x1b[2J\xc2\x9b\xff";
+  write("name.toml", "name = \"\\u001b]0;owned\\u0007\\u001b[2Jok\"\n[targets]\nlayout = \"ring\"\n");
+  write("key.toml", "\"\\u001b[2Jkey\" = 1\n[mission]\nalgorithm = \"\\u009b2J\"\n[targets]\n");
+  write(evil + ".toml", read("small.toml"));
+  write(evil + ".json", "{\"targets\": {\"count\" 2}}");
+  const auto expect_harmless = [](const std::string& text) {
+    EXPECT_EQ(printable_lines(text), text);
+    EXPECT_TRUE(valid_utf8(text));
+  };
+  for (const Arguments& arguments : std::vector<Arguments>{{"validate", "name.toml"},
+                                                           {"validate", "key.toml"},
+                                                           {"validate", evil + ".toml"},
+                                                           {"validate", evil + ".json"},
+                                                           {"validate", evil},
+                                                           {"run", evil + ".toml", "--out", "out-" + evil},
+                                                           {"run", evil + ".toml", "--out", "out-" + evil},
+                                                           {"run", "http://localhost/#scenario=a&%1b[2J" + evil + "=1"},
+                                                           {"run", "#scenario=%1b%5b2J"},
+                                                           {"run", "#scenario=three-targets&set=%1b[2J=1"},
+                                                           {"run", "small.toml", "--set", evil + "=1"},
+                                                           {"run", "small.toml", "--" + evil},
+                                                           {"export", evil, "--csv"},
+                                                           {"study", evil},
+                                                           {evil}}) {
+    const auto outcome = run(arguments);
+    EXPECT_NE(outcome.out + outcome.err, "") << arguments[0];
+    expect_harmless(outcome.out);
+    expect_harmless(outcome.err);
+  }
+  EXPECT_TRUE(has(run({"validate", "name.toml"}).err, "name: is \"\\x1b]0;owned\\x07\\x1b[2Jok\"; allowed: 1 to 100"));
+  // What a program reads keeps its own escapes and the exact key.
+  const auto report = json::parse(run({"validate", "--json", "key.toml"}).out);
+  EXPECT_EQ(report[0]["problems"][0]["key"], "\x1b[2Jkey");
 }
 
 TEST_F(Program, BadUsageIsTwoAndNamesWhatWasMeant) {
