@@ -338,6 +338,7 @@ TEST_F(Program, NoControlCharacterReachesTheTerminal) {
 
 TEST_F(Program, BadUsageIsTwoAndNamesWhatWasMeant) {
   EXPECT_TRUE(has(run({"rn", "small.toml"}).err, "\"rn\" is unknown; did you mean run?"));
+  EXPECT_TRUE(has(run({"run", "small.toml", "--seed", "1", "--seed", "2"}).err, "--seed is given twice; give it once"));
   EXPECT_TRUE(has(run({"run", "small.toml", "--qiet"}).err, "\"--qiet\" is unknown; did you mean --quiet?"));
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{},
