@@ -117,7 +117,7 @@ record::RunEnd play_out(world::World world, record::Sinks& sinks, int threads, C
 }  // namespace
 
 int keep_run(const Configuration& configuration, const RunOutputs& outputs, const RunOptions& options,
-             world::World world, const Play& play, const std::function<std::string()>& remarks) {
+             FunctionRef<world::World()> make_world, const Play& play, const std::function<std::string()>& remarks) {
   catch_stop_signals();
   ProgressLine progress(!options.quiet);
   const record::SinkOptions wanted{
@@ -126,10 +126,10 @@ int keep_run(const Configuration& configuration, const RunOutputs& outputs, cons
       outputs.existing()};
   record::Sinks sinks = record::open_outputs(outputs.directory(), wanted);
   Complaints complaints(sinks, progress);
-  const int threads = thread_count(options.threads, world.size());
+  const int threads = thread_count(options.threads, world::robot_count(configuration.scenario));
   record::RunEnd end;
   try {
-    end = play_out(std::move(world), sinks, threads, complaints, progress, play);
+    end = play_out(make_world(), sinks, threads, complaints, progress, play);
   } catch (...) {
     for (const auto& rest : sinks.rests()) tell_of_rest(rest, "the run is lost; ");
     throw;
@@ -159,7 +159,8 @@ int run_command(const RunOptions& options) {
 
   const RunOutputs outputs(configuration, options.out, options.force);
   try {
-    return keep_run(configuration, outputs, options, world::World(configuration.scenario), record::run_scenario);
+    return keep_run(
+        configuration, outputs, options, [&] { return world::World(configuration.scenario); }, record::run_scenario);
   } catch (...) {
     outputs.abandon();
     throw;

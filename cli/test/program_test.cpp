@@ -529,6 +529,24 @@ INSTANTIATE_TEST_SUITE_P(BySignal, Interrupted, ::testing::Values(SIGINT, SIGTER
   return test.param == SIGINT ? "CtrlC" : test.param == SIGHUP ? "Sighup" : "Sigterm";
 });
 
+// Before the first frame of a large swarm is there, a second may pass.
+TEST_F(Program, ALargeRunThatIsKilledAtOnceLeavesARecordingThatCanBeRead) {
+  const pid_t child = start({"run", BANYAN_SCENARIOS "/swarm-10000.toml", "--out", "o"});
+  const auto bytes = [&] {
+    std::error_code none;
+    const auto size = fs::file_size(home_ / "o/run.mcap.part", none);
+    return none ? 0 : size;
+  };
+  for (int i = 0; i < 6000 && bytes() == 0; ++i) std::this_thread::sleep_for(10ms);
+  std::this_thread::sleep_for(50ms);
+  ASSERT_EQ(::kill(child, SIGKILL), 0);
+  EXPECT_EQ(finish(child).code, 1000 + SIGKILL);
+  ASSERT_GT(bytes(), 0U);
+  EXPECT_FALSE(exists("o/run.mcap") || exists("o/run.json"));
+  const auto exported = run({"export", "o/run.mcap.part", "--csv", "-o", "robots.csv"});
+  EXPECT_TRUE(exported.code == 0 || has(exported.err, "the recording holds no frames")) << exported.err;
+}
+
 // nohup banyan run ... goes on when its terminal is closed.
 TEST_F(Program, AnIgnoredHangupStaysIgnored) {
   const std::string script = "trap '' HUP; exec \"$0\" run endless.toml --set mission.time_limit_s=20 -q --out o";
