@@ -14,6 +14,7 @@
 #include "banyan/measure/effort.hpp"
 #include "banyan/measure/fiedler.hpp"
 #include "banyan/measure/lasting.hpp"
+#include "banyan/measure/overlaps.hpp"
 #include "banyan/measure/recovery.hpp"
 #include "banyan/measure/redundancy.hpp"
 #include "banyan/measure/redundancy_bound.hpp"
@@ -229,6 +230,7 @@ struct Observer::Impl {
   double speed_m_s;
   bool oracle_asked = false;
   Effort effort;
+  Overlaps overlaps;
   Lasting lasting;
   Recovery recovery;
   Takeovers takeovers;
@@ -324,6 +326,7 @@ Observer::Impl::Impl(const world::World& world)
       first_others(unsent_positions(world)),
       speed_m_s(world.scenario().robot.wheel_limit_m_s),
       effort(world),
+      overlaps(world),
       lasting(world),
       recovery(world.scenario().tick_s, world::drive_s(world.scenario()), stop_when_complete ? settle_s : 0.0),
       takeovers(world.scenario().tick_s),
@@ -620,6 +623,7 @@ const Tick& Observer::observe(const world::World& world, bool exact_fiedler) {
   impl_->measure_targets(world);
   impl_->time_phases(world);
   impl_->effort.observe(world);
+  impl_->overlaps.observe(world);
   impl_->lasting.observe(world);
   impl_->tick.least_charge = impl_->lasting.least_charge();
   impl_->tick.mean_charge = impl_->lasting.mean_charge();
@@ -672,6 +676,7 @@ Run Observer::result(const world::World& world) const {
     run.bytes_per_robot_s = static_cast<double>(run.messages * world.swarm().message_bytes()) /
                             (static_cast<double>(world.size()) * run.time_s);
   run.decisions = impl_->effort.decisions();
+  run.overlap_ticks = impl_->overlaps.ticks();
   run.swaps = impl_->lasting.swaps();
   run.broken_swaps = impl_->lasting.broken_swaps();
   run.trips = impl_->lasting.trips();

@@ -187,6 +187,11 @@ constexpr Column<Row> result_table[] = {
      [](const Row& r) { return natural(r.run.decisions); }},
     {"driven_m", "the way of a robot, mean over the robots at the start", 4,
      [](const Row& r) -> Cell { return r.run.driven_m; }, "metres driven per robot"},
+    {"overlap_ticks", "in which bodies of living robots overlap; empty unless robot.body is linear", 0,
+     [](const Row& r) {
+       return r.run.overlap_ticks < 0 ? Cell{} : natural(static_cast<std::uint64_t>(r.run.overlap_ticks));
+     },
+     "ticks with bodies that overlap"},
     {"least_charge", "of any living robot at any time, as a share of a full battery; empty without batteries", 4,
      [](const Row& r) { return if_known(r.run.least_charge); }},
     {"mean_charge", "of the living at the end; empty without batteries", 4,

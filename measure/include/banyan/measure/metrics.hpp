@@ -111,6 +111,7 @@ struct Run {
   std::uint64_t messages = 0;                  // broadcast, by all robots
   std::uint64_t decisions = 0;                 // changes of role, parent or served target, of all robots (effort.hpp)
   double driven_m = 0.0;                       // mean over the robots at the start (effort.hpp)
+  std::int64_t overlap_ticks = -1;             // two living bodies in one place (overlaps.hpp); -1: they cannot be
   double least_charge = -1.0;                  // of all living robots and ticks (lasting.hpp); -1: no batteries
   double mean_charge = -1.0;                   // of the living at the end
   std::uint64_t swaps = 0, broken_swaps = 0;   // robots of the tree relieved, and those with a broken edge meanwhile
