@@ -135,6 +135,40 @@ TEST(Algorithms, TimesThatSlowRobotsCannotCountAreAFault) {
   EXPECT_TRUE(convoy().fault(setup).starts_with("regroup_after_drives must be at most 25 "));
 }
 
+// A reason and the values of all that it names, also of what nobody has set.
+TEST(Algorithms, AFaultOfParametersSaysWhyAndWhatTheyAre) {
+  const auto fault = [](const Algorithm& algorithm, std::vector<std::pair<std::string, double>> parameters,
+                        const Platform& platform = {}) {
+    banyan::Setup setup;
+    setup.platform = platform;
+    setup.parameters = std::move(parameters);
+    return algorithm.fault(setup);
+  };
+  EXPECT_EQ(
+      fault(convoy(), {{"safe_range", 0.2}}),
+      "recruitment_distance (E) must be below safe_range (S), else an edge would stop growing before it asks for a "
+      "spare; here safe_range = 0.2 C, recruitment_distance = 0.825 C by default");
+  EXPECT_EQ(fault(*algorithms().find("chains"), {{"safe_distance", 0.7}, {"critical_distance", 0.6}}),
+            "safe_distance must be below critical_distance, else a robot would go on and go back at the same distance; "
+            "here safe_distance = 0.7 C, critical_distance = 0.6 C");
+  Platform slow;
+  slow.tick_s = 0.01F;  // 1,000 rounds in a drive
+  EXPECT_EQ(fault(outwards(), {{"reconfiguration_drives", 40.0}}, slow),
+            "reconfiguration_drives (R) must be below 30,000 rounds, else the numbers of its messages run out; here "
+            "reconfiguration_drives = 40 drives (40000 rounds)");
+  // Each parameter alone, at either end of its range: whatever is refused has a reason beside the rule.
+  for (const Algorithm* algorithm : algorithms()) {
+    for (const ParameterInfo* row : algorithm->parameters()) {
+      for (const float end : {row->minimum, row->maximum}) {
+        const std::string text = fault(*algorithm, {{std::string(row->key), static_cast<double>(end)}});
+        if (text.empty()) continue;
+        EXPECT_TRUE(text.find(", else ") != std::string::npos || text.find(": ") != std::string::npos) << text;
+        EXPECT_NE(text.find(std::string(row->key) + " = "), std::string::npos) << text;
+      }
+    }
+  }
+}
+
 TEST(Algorithms, DistancesOutOfOrderAreAFault) {
   banyan::Setup setup;
   setup.parameters = {{"safe_range", 0.975}};

@@ -66,9 +66,9 @@ int argos_command(const ArgosOptions& options) {
   const auto existing = options.force ? record::Existing::replace : record::Existing::keep;
   record::write_file(experiment.world, config::config_toml(configuration), existing);
   record::write_file(file.string(), argos::experiment_xml(configuration.scenario, experiment), existing);
-  print(file.string() + ": " + plural(world::robot_count(configuration.scenario), "robot") + ", " +
-        plural(world::target_positions(configuration.scenario).size(), "target") + "; run it with argos3 -z -c " +
-        file.string() + "\n");
+  print_text(file.string() + ": " + plural(world::robot_count(configuration.scenario), "robot") + ", " +
+             plural(world::target_positions(configuration.scenario).size(), "target") + "; run it with argos3 -z -c " +
+             file.string() + "\n");
   return exit_done;
 }
 

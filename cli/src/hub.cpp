@@ -206,9 +206,10 @@ int play_scenario(const HubOptions& options) {
     const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), hub, silence);
     RunOptions run = options.run;
     run.threads = 1;
-    const int code = keep_run(configuration, outputs, run, make_world(scenario, remote, tracker.get()),
-                              Conductor(hub, tracker.get(), keys, options),
-                              [&] { return remarks_on(hub.counts(), options.impairment); });
+    world::World world = make_world(scenario, remote, tracker.get());
+    const int code = keep_run(
+        configuration, outputs, run, [&] { return std::move(world); }, Conductor(hub, tracker.get(), keys, options),
+        [&] { return remarks_on(hub.counts(), options.impairment); });
     page.stay();
     return code;
   } catch (...) {

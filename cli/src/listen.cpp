@@ -120,9 +120,10 @@ int record_mission(const ListenOptions& options) {
     const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), listener, silence);
     RunOptions run = options.run;
     run.threads = 1;
-    const int code =
-        keep_run(configuration, outputs, run, world::World(scenario, remote, tracked_bodies(listener.chart().poses())),
-                 Ears(listener, workers), [&] { return remarks_on(listener); });
+    world::World world(scenario, remote, tracked_bodies(listener.chart().poses()));
+    const int code = keep_run(
+        configuration, outputs, run, [&] { return std::move(world); }, Ears(listener, workers),
+        [&] { return remarks_on(listener); });
     page.stay();
     return code;
   } catch (...) {

@@ -745,13 +745,20 @@ std::string suggestion(const CLI::App& app, const std::vector<std::string>& argu
   return "";
 }
 
+// As banyan-robot and banyan-ros2 say it (option_table.hpp), not "At Most 1 required but received 2".
+std::string in_our_words(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const auto end = text.find(": At Most 1 required but received ");
+  return end == std::string::npos ? text : text.substr(0, end) + " is given twice; give it once";
+}
+
 int report_bad_usage(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& arguments) {
   const CLI::App* command = &app;
   for (const auto* chosen : app.get_subcommands()) command = chosen;
   const auto hint = dynamic_cast<const CLI::ExtrasError*>(&error) || dynamic_cast<const CLI::RequiredError*>(&error)
                         ? suggestion(app, arguments)
                         : "";
-  complain(hint.empty() ? error.what() : hint);
+  complain(hint.empty() ? in_our_words(error) : hint);
   const std::string name = command == &app ? "banyan" : "banyan " + command->get_name();
   complain("see " + name + " --help");
   return exit_usage;

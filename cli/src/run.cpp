@@ -117,7 +117,7 @@ record::RunEnd play_out(world::World world, record::Sinks& sinks, int threads, C
 }  // namespace
 
 int keep_run(const Configuration& configuration, const RunOutputs& outputs, const RunOptions& options,
-             world::World world, const Play& play, const std::function<std::string()>& remarks) {
+             FunctionRef<world::World()> make_world, const Play& play, const std::function<std::string()>& remarks) {
   catch_stop_signals();
   ProgressLine progress(!options.quiet);
   const record::SinkOptions wanted{
@@ -126,10 +126,10 @@ int keep_run(const Configuration& configuration, const RunOutputs& outputs, cons
       outputs.existing()};
   record::Sinks sinks = record::open_outputs(outputs.directory(), wanted);
   Complaints complaints(sinks, progress);
-  const int threads = thread_count(options.threads, world.size());
+  const int threads = thread_count(options.threads, world::robot_count(configuration.scenario));
   record::RunEnd end;
   try {
-    end = play_out(std::move(world), sinks, threads, complaints, progress, play);
+    end = play_out(make_world(), sinks, threads, complaints, progress, play);
   } catch (...) {
     for (const auto& rest : sinks.rests()) tell_of_rest(rest, "the run is lost; ");
     throw;
@@ -143,7 +143,7 @@ int keep_run(const Configuration& configuration, const RunOutputs& outputs, cons
 
   const record::RunRow row{record::identify(configuration.scenario, version, git_id()), end.run, end.interrupted};
   if (options.json) print(record::run_json(row, wanted.provenance.config_json));
-  else if (!options.quiet) print(summary_text(row, configuration, outputs, extras));
+  else if (!options.quiet) print_text(summary_text(row, configuration, outputs, extras));
   if (complaints.any()) return exit_lost;
   if (!end.interrupted) return exit_done;
   complain(format("stopped by %s at %.1f s; what was done until then is in %s", stop_signal_name(), end.run.time_s,
@@ -159,7 +159,8 @@ int run_command(const RunOptions& options) {
 
   const RunOutputs outputs(configuration, options.out, options.force);
   try {
-    return keep_run(configuration, outputs, options, world::World(configuration.scenario), record::run_scenario);
+    return keep_run(
+        configuration, outputs, options, [&] { return world::World(configuration.scenario); }, record::run_scenario);
   } catch (...) {
     outputs.abandon();
     throw;

@@ -176,8 +176,8 @@ int threads_of(const StudyOptions& options, const Processes& processes) {
 int dry_run(const Prepared& prepared, const Shard& shard, const std::vector<std::size_t>& todo, const Folder& folder,
             int at_once) {
   const double seconds = estimate_s(prepared.plan, todo, sampling_s) / at_once;
-  print(plan_summary(prepared, shard, todo.size()) + "  about " + duration_text(seconds) +
-        format(" with %d at once", at_once) + " (from sample runs); results in " + folder.path + "\n");
+  print_text(plan_summary(prepared, shard, todo.size()) + "  about " + duration_text(seconds) +
+             format(" with %d at once", at_once) + " (from sample runs); results in " + folder.path + "\n");
   return exit_done;
 }
 
@@ -198,7 +198,7 @@ int finish(const Prepared& prepared, const Gathered& gathered, const Folder& fol
   const auto written = write_results(prepared.study, prepared.plan, gathered, folder);
   for (const auto& complaint : written.complaints) complain("figure " + complaint);
   const Results results(prepared.study, prepared.plan, gathered.outcomes);
-  if (!quiet) print(study_summary(prepared.study, results, folder, written));
+  if (!quiet) print_text(study_summary(prepared.study, results, folder, written));
   if (results.failed() > 0) {
     complain(format("%zu of %zu runs failed: column \"error\" of ", results.failed(), results.rows()) + folder.table() +
              "; --retry tries them again");
@@ -218,9 +218,9 @@ int finish_shard(const Plan& plan, const Shard& shard, const Outcomes& outcomes,
     if (!at->second.error.empty()) ++failed;
   }
   if (!options.quiet)
-    print(format("shard %zu of %zu is done (%zu runs, %zu failed); when all are: banyan collect ", shard.number,
-                 shard.count, done, failed) +
-          options.file + " --out " + folder.path + "\n");
+    print_text(format("shard %zu of %zu is done (%zu runs, %zu failed); when all are: banyan collect ", shard.number,
+                      shard.count, done, failed) +
+               options.file + " --out " + folder.path + "\n");
   if (failed > 0) complain(format("%zu of %zu runs failed; --retry tries them again", failed, done));
   return failed > 0 ? exit_lost : exit_done;
 }
@@ -234,7 +234,7 @@ int run_plan(const StudyOptions& options, const Prepared& prepared, const Shard&
   const auto todo = runs_to_do(prepared.plan, shard, gathered.outcomes, options.retry);
   const int threads = threads_of(options, processes);
   if (options.dry_run) return dry_run(prepared, shard, todo, folder, threads * processes.size());
-  if (!options.quiet) print(plan_summary(prepared, shard, todo.size()));
+  if (!options.quiet) print_text(plan_summary(prepared, shard, todo.size()));
 
   make_directory(folder.path + "/journal");
   catch_stop_signals();

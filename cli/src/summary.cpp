@@ -170,6 +170,9 @@ std::string summary_text(const record::RunRow& row, const Configuration& configu
   if (run.deaths > 0) text += summary_line("deaths", deaths_text(run, world::drive_s(scenario)));
   text += summary_line("work", work_text(run));
   text += summary_line("radio", format("%.0f bytes per robot and second", run.bytes_per_robot_s));
+  if (run.overlap_ticks > 0)
+    text += summary_line("bodies", "overlap in " + plural(static_cast<std::uint64_t>(run.overlap_ticks), "tick") +
+                                       ": robot.body = \"linear\" has no contacts");
   if (run.rejected > 0) text += summary_line("refused", refused_text(run));
   text += extras.remarks.empty() ? computing_text(run, extras) : extras.remarks;
   text += "\nResults in " + outputs.directory() + "/\n";

@@ -14,6 +14,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "banyan/controller/core/printable.hpp"
+
 namespace banyan::cli {
 
 using namespace config;
@@ -77,7 +79,9 @@ void print(std::string_view text) {
   }
 }
 
-void complain(std::string_view text) { write_error("banyan: " + std::string(text) + "\n"); }
+void print_text(std::string_view text) { print(printable_lines(text)); }
+
+void complain(std::string_view text) { write_error("banyan: " + printable_lines(text) + "\n"); }
 
 void print_problems(const std::vector<Problem>& problems) {
   constexpr std::size_t most = 100;
@@ -98,7 +102,7 @@ bool ProgressLine::due() { return wanted_ && Clock::now() >= next_; }
 
 void ProgressLine::show(double share, std::string_view text, bool at_most) {
   const double elapsed = elapsed_s();
-  std::string line(text);
+  std::string line = printable(text);
   if (share > 0.0) {
     const double left = elapsed / share * (1.0 - share);
     line += (at_most ? ", at most " : ", about ") + duration_text(left) + " left";

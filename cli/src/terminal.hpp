@@ -39,7 +39,10 @@ void reserve_standard_streams() noexcept;
 
 // Writes everything to standard output; throws CommandError(exit_lost) when that fails (disk full).
 void print(std::string_view text);
-// One line to standard error, prefixed "banyan: ".
+// The same for a person to read: names from outside cannot reach the terminal as control characters. What a program
+// reads (JSON, CSV, TOML, command lines) goes through print().
+void print_text(std::string_view text);
+// A message to standard error, prefixed "banyan: ", printable.
 void complain(std::string_view text);
 // All problems to standard error, at most a hundred; then, for errors, their number.
 void print_problems(const std::vector<config::Problem>& problems);

@@ -170,7 +170,7 @@ int tune_command(const TuneOptions& options) {
   const TunePlan& plan = loaded.plan;
   const std::string directory = directory_of(options, plan);
   if (options.dry_run) {
-    print(dry_run_text(plan, directory));
+    print_text(dry_run_text(plan, directory));
     return exit_done;
   }
 
@@ -186,7 +186,7 @@ int tune_command(const TuneOptions& options) {
     return exit_signal + stop_signal();
   }
   for (const auto& warning : result.warnings) complain("warning: " + warning);
-  if (!options.quiet) print(summary_text(plan, result, directory, progress.elapsed_s()));
+  if (!options.quiet) print_text(summary_text(plan, result, directory, progress.elapsed_s()));
   return exit_done;
 }
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "banyan/algorithms/algorithms.hpp"
+#include "banyan/controller/core/printable.hpp"
 #include "commands.hpp"
 #include "terminal.hpp"
 
@@ -17,7 +18,7 @@ std::string count_of(std::size_t n, const std::string& noun) {
 
 std::string summary(const std::string& file, const Configuration& configuration) {
   const auto& scenario = configuration.scenario;
-  return file + ": ok: " + scenario.mission.algorithm + " (" + scenario.mission.reading + "), " +
+  return printable(file) + ": ok: " + scenario.mission.algorithm + " (" + scenario.mission.reading + "), " +
          count_of(world::robot_count(scenario), "robot") + ", " +
          count_of(world::target_positions(scenario).size(), "target") +
          format(", at most %.1f s\n", world::time_limit_s(scenario));

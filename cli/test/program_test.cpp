@@ -12,6 +12,7 @@
 
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
+#include "banyan/controller/core/printable.hpp"
 #include "banyan/record/file.hpp"
 #include "started_program.hpp"
 
@@ -298,8 +299,46 @@ TEST_F(Program, ValidateSpeaksJsonAndShowsWhatAScenarioStandsFor) {
   EXPECT_EQ(again.configuration.scenario.radio.loss, 0.5);
 }
 
+// A terminal would obey them: rename its window, clear its screen, show a line that nobody wrote.
+TEST_F(Program, NoControlCharacterReachesTheTerminal) {
+  const std::string evil = "\x1b]0;owned\a\x1b[2J\xc2\x9b\xff";
+  write("name.toml", "name = \"\\u001b]0;owned\\u0007\\u001b[2Jok\"\n[targets]\nlayout = \"ring\"\n");
+  write("key.toml", "\"\\u001b[2Jkey\" = 1\n[mission]\nalgorithm = \"\\u009b2J\"\n[targets]\n");
+  write(evil + ".toml", read("small.toml"));
+  write(evil + ".json", "{\"targets\": {\"count\" 2}}");
+  const auto expect_harmless = [](const std::string& text) {
+    EXPECT_EQ(printable_lines(text), text);
+    EXPECT_TRUE(valid_utf8(text));
+  };
+  for (const Arguments& arguments : std::vector<Arguments>{{"validate", "name.toml"},
+                                                           {"validate", "key.toml"},
+                                                           {"validate", evil + ".toml"},
+                                                           {"validate", evil + ".json"},
+                                                           {"validate", evil},
+                                                           {"run", evil + ".toml", "--out", "out-" + evil},
+                                                           {"run", evil + ".toml", "--out", "out-" + evil},
+                                                           {"run", "http://localhost/#scenario=a&%1b[2J" + evil + "=1"},
+                                                           {"run", "#scenario=%1b%5b2J"},
+                                                           {"run", "#scenario=three-targets&set=%1b[2J=1"},
+                                                           {"run", "small.toml", "--set", evil + "=1"},
+                                                           {"run", "small.toml", "--" + evil},
+                                                           {"export", evil, "--csv"},
+                                                           {"study", evil},
+                                                           {evil}}) {
+    const auto outcome = run(arguments);
+    EXPECT_NE(outcome.out + outcome.err, "") << arguments[0];
+    expect_harmless(outcome.out);
+    expect_harmless(outcome.err);
+  }
+  EXPECT_TRUE(has(run({"validate", "name.toml"}).err, "name: is \"\\x1b]0;owned\\x07\\x1b[2Jok\"; allowed: 1 to 100"));
+  // What a program reads keeps its own escapes and the exact key.
+  const auto report = json::parse(run({"validate", "--json", "key.toml"}).out);
+  EXPECT_EQ(report[0]["problems"][0]["key"], "\x1b[2Jkey");
+}
+
 TEST_F(Program, BadUsageIsTwoAndNamesWhatWasMeant) {
   EXPECT_TRUE(has(run({"rn", "small.toml"}).err, "\"rn\" is unknown; did you mean run?"));
+  EXPECT_TRUE(has(run({"run", "small.toml", "--seed", "1", "--seed", "2"}).err, "--seed is given twice; give it once"));
   EXPECT_TRUE(has(run({"run", "small.toml", "--qiet"}).err, "\"--qiet\" is unknown; did you mean --quiet?"));
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{},
@@ -489,6 +528,24 @@ TEST_P(Interrupted, LeavesValidFilesOfWhatWasDone) {
 INSTANTIATE_TEST_SUITE_P(BySignal, Interrupted, ::testing::Values(SIGINT, SIGTERM, SIGHUP), [](const auto& test) {
   return test.param == SIGINT ? "CtrlC" : test.param == SIGHUP ? "Sighup" : "Sigterm";
 });
+
+// Before the first frame of a large swarm is there, a second may pass.
+TEST_F(Program, ALargeRunThatIsKilledAtOnceLeavesARecordingThatCanBeRead) {
+  const pid_t child = start({"run", BANYAN_SCENARIOS "/swarm-10000.toml", "--out", "o"});
+  const auto bytes = [&] {
+    std::error_code none;
+    const auto size = fs::file_size(home_ / "o/run.mcap.part", none);
+    return none ? 0 : size;
+  };
+  for (int i = 0; i < 6000 && bytes() == 0; ++i) std::this_thread::sleep_for(10ms);
+  std::this_thread::sleep_for(50ms);
+  ASSERT_EQ(::kill(child, SIGKILL), 0);
+  EXPECT_EQ(finish(child).code, 1000 + SIGKILL);
+  ASSERT_GT(bytes(), 0U);
+  EXPECT_FALSE(exists("o/run.mcap") || exists("o/run.json"));
+  const auto exported = run({"export", "o/run.mcap.part", "--csv", "-o", "robots.csv"});
+  EXPECT_TRUE(exported.code == 0 || has(exported.err, "the recording holds no frames")) << exported.err;
+}
 
 // nohup banyan run ... goes on when its terminal is closed.
 TEST_F(Program, AnIgnoredHangupStaysIgnored) {

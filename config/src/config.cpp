@@ -4,6 +4,7 @@
 #include "banyan/config/config.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "banyan/world/faults.hpp"
@@ -29,10 +30,10 @@ std::vector<world::Fault> semantic_faults(world::Scenario scenario, const Scenar
   };
   if (std::any_of(list.begin(), list.end(), about_parameters)) {
     scenario.mission.parameters.clear();
-    for (auto& more : world::faults(scenario)) {
-      const auto same = [&](const world::Fault& f) { return f.key == more.key && f.text == more.text; };
-      if (std::none_of(list.begin(), list.end(), same)) list.push_back(std::move(more));
-    }
+    std::set<std::pair<std::string, std::string>> known;
+    for (const auto& fault : list) known.emplace(fault.key, fault.text);
+    for (auto& more : world::faults(scenario))
+      if (known.emplace(more.key, more.text).second) list.push_back(std::move(more));
   }
   return list;
 }

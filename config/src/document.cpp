@@ -16,6 +16,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "banyan/controller/core/printable.hpp"
+
 namespace banyan::config {
 namespace {
 
@@ -218,7 +220,7 @@ std::string Place::text() const {
 std::string to_string(const Problem& problem) {
   std::string text = problem.place.text() + (problem.warning ? ": warning: " : ": error: ");
   if (!problem.key.empty()) text += problem.key + ": ";
-  return text + problem.text;
+  return printable(text + problem.text);
 }
 
 const Node* Node::find(std::string_view name) const noexcept {

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <optional>
 
+#include "banyan/controller/core/printable.hpp"
+
 namespace banyan::config {
 namespace {
 
@@ -32,22 +34,6 @@ std::optional<std::vector<PathStep>> split_path(std::string_view path) {
     if (path.front() != '.') return std::nullopt;
     path.remove_prefix(1);
   }
-}
-
-bool valid_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i++]);
-    int more = lead < 0x80                   ? 0
-               : lead >= 0xC2 && lead < 0xE0 ? 1
-               : lead >= 0xE0 && lead < 0xF0 ? 2
-               : lead >= 0xF0 && lead < 0xF5 ? 3
-                                             : -1;
-    if (more < 0) return false;
-    for (; more > 0; --more, ++i) {
-      if (i >= text.size() || (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace

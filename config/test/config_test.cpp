@@ -196,7 +196,10 @@ robot = 40
   EXPECT_TRUE(says(loaded, "w.toml:2: error: swarm.robots: 2 robots cannot serve 3 targets"));
   EXPECT_TRUE(says(loaded, "w.toml:4: error: swarm.start.pitch_m: robots do not fit"));
   EXPECT_TRUE(says(loaded, "w.toml:7: error: targets.positions_m[1]: target 1 at (2, 0) lies inside an obstacle"));
-  EXPECT_TRUE(says(loaded, "w.toml:9: error: mission.parameters: safe_range (S) must be below"));
+  EXPECT_TRUE(says(loaded,
+                   "w.toml:9: error: mission.parameters: safe_range (S) must be below ideal_distance (delta), else a "
+                   "robot would still move away from its parent where the edge is in danger; here safe_range = "
+                   "0.99 C, ideal_distance = 0.95 C by default"));
   EXPECT_TRUE(says(loaded, "w.toml:18: error: events[0].robot: there is no robot 40"));
 }
 

@@ -13,6 +13,8 @@
 #include <system_error>
 #include <utility>
 
+#include "banyan/controller/core/printable.hpp"
+
 namespace banyan::record {
 
 namespace {
@@ -75,12 +77,12 @@ void sync_directory(const std::string& path) {
 }  // namespace
 
 FileError::FileError(std::string path, std::string_view action, int error_number)
-    : std::runtime_error(path + ": " + std::string(action) + ": " + reason(error_number)),
+    : std::runtime_error(printable(path + ": " + std::string(action) + ": " + reason(error_number))),
       path_(std::move(path)),
       error_number_(error_number) {}
 
 FileError::FileError(std::string path, std::string_view text)
-    : std::runtime_error(path + ": " + std::string(text)), path_(std::move(path)) {}
+    : std::runtime_error(printable(path + ": " + std::string(text))), path_(std::move(path)) {}
 
 int open_locked(const std::string& path, int flags) {
   for (;;) {

@@ -176,6 +176,7 @@ Recorder::Recorder(std::string path, Provenance provenance, RecorderOptions opti
                     {"seed", std::to_string(r.provenance.seed)},
                     {"config", r.provenance.config_json}}});
   r.add_channels();
+  r.file.flush();  // whoever is killed before the first frame leaves a recording without one, and not a torn file
 }
 
 Recorder::Recorder(Recorder&&) noexcept = default;

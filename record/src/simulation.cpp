@@ -6,9 +6,18 @@
 
 namespace banyan::record {
 
-Simulation::Simulation(world::World world, Sink& sink) : world_(std::move(world)), observer_(world_), sink_(sink) {
-  sink_.start(world_);
+namespace {
+
+// The first frame is kept before the bounds of the mission are computed, which takes a second where targets are many.
+const world::World& started(const world::World& world, Sink& sink) {
+  sink.start(world);
+  return world;
 }
+
+}  // namespace
+
+Simulation::Simulation(world::World world, Sink& sink)
+    : world_(std::move(world)), observer_(started(world_, sink)), sink_(sink) {}
 
 void Simulation::step(world::Executor& executor) {
   world_.step(executor);

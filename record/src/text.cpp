@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "banyan/controller/core/printable.hpp"
 #include "banyan/world/decimal.hpp"
 
 namespace banyan::record {
@@ -26,26 +27,6 @@ constexpr std::array<std::uint64_t, 10> power{1,      10,      100,      1000,  
                                               100000, 1000000, 10000000, 100000000, 1000000000};
 
 constexpr double exact_limit = 9e15;  // below, scaled values are whole numbers of an int64
-
-// Length of the valid UTF-8 sequence at `text`, 0 if there is none (RFC 3629).
-std::size_t utf8_length(std::string_view text) noexcept {
-  const auto at = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
-  const auto follows = [&](std::size_t k) { return (at(k) & 0xC0U) == 0x80U; };
-  const unsigned c = at(0);
-  if (c < 0x80U) return 1;
-  if (c >= 0xC2U && c <= 0xDFU) return follows(1) ? 2 : 0;
-  if (c >= 0xE0U && c <= 0xEFU) {
-    if (!follows(1) || !follows(2)) return 0;
-    if ((c == 0xE0U && at(1) < 0xA0U) || (c == 0xEDU && at(1) > 0x9FU)) return 0;  // overlong, surrogate
-    return 3;
-  }
-  if (c >= 0xF0U && c <= 0xF4U) {
-    if (!follows(1) || !follows(2) || !follows(3)) return 0;
-    if ((c == 0xF0U && at(1) < 0x90U) || (c == 0xF4U && at(1) > 0x8FU)) return 0;
-    return 4;
-  }
-  return 0;
-}
 
 constexpr std::string_view replacement = "\xEF\xBF\xBD";
 

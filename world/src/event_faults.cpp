@@ -3,6 +3,7 @@
 // the events before it leave behind.
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/schema.hpp"
@@ -16,31 +17,42 @@ struct Sequel {
   std::size_t targets;  // that have been there, given up or not
   std::size_t served;   // those that are not given up
   std::size_t most;     // the largest of `served` so far
-  std::vector<std::size_t> removed;
+  std::set<std::size_t> removed;
   std::vector<Obstacle> obstacles;
 };
 
-// Whether a run may still go on at `time_s`, which is past its limit: to settle, to wait for deaths to come or to
-// recover from them (docs/model.md).
-bool may_last_until(const Scenario& scenario, double time_s) {
-  const auto deadly = [](const Event& event) {
-    return std::holds_alternative<Die>(event.action) || std::holds_alternative<Kill>(event.action);
-  };
-  return scenario.mission.stop_when_complete && (time_s < time_limit_s(scenario) + scenario.mission.settle_s ||
-                                                 std::any_of(scenario.events.begin(), scenario.events.end(), deadly));
-}
+// When a run ends. Taken once for all events: it depends on all targets and all events.
+struct End {
+  explicit End(const Scenario& scenario)
+      : limit_s{time_limit_s(scenario)},
+        stops_when_complete{scenario.mission.stop_when_complete},
+        settled_s{limit_s + scenario.mission.settle_s},
+        waits_for_deaths{std::any_of(scenario.events.begin(), scenario.events.end(), [](const Event& event) {
+          return std::holds_alternative<Die>(event.action) || std::holds_alternative<Kill>(event.action);
+        })} {}
+  // Whether a run may still go on at `time_s`, which is past its limit: to settle, to wait for deaths to come or to
+  // recover from them (docs/model.md).
+  [[nodiscard]] bool may_last_until(double time_s) const noexcept {
+    return stops_when_complete && (time_s < settled_s || waits_for_deaths);
+  }
+  double limit_s;
+  bool stops_when_complete;
+  double settled_s;
+  bool waits_for_deaths;
+};
 
 // Checks that what an event refers to exists when it happens.
 class CheckEventFits {
  public:
-  CheckEventFits(FaultList& list, const Scenario& scenario, std::size_t index, std::size_t robots, const Sequel& before)
+  CheckEventFits(FaultList& list, const Scenario& scenario, const End& end, std::size_t index, std::size_t robots,
+                 const Sequel& before)
       : list_(list), scenario_(scenario), key_(element("events", index)), robots_(robots), before_(before) {
     const Event& event = scenario.events[index];
-    if (const double limit_s = time_limit_s(scenario); event.time_s >= limit_s)
+    if (event.time_s >= end.limit_s)
       list.warn(key_ + ".time_s",
-                (may_last_until(scenario, event.time_s) ? "happens only if the run goes on after its limit of "
-                                                        : "the run ends before: its limit is ") +
-                    short_text(limit_s) + " s");
+                (end.may_last_until(event.time_s) ? "happens only if the run goes on after its limit of "
+                                                  : "the run ends before: its limit is ") +
+                    short_text(end.limit_s) + " s");
     std::visit(*this, event.action);
   }
   void operator()(const Die& die) const { robot(die.robot); }
@@ -78,7 +90,7 @@ class CheckEventFits {
     return i < count;
   }
   void room(Vec2 p) const {
-    check_target_room(list_, scenario_, before_.obstacles, key_ + ".position_m", "the target", p);
+    check_target_room(list_, scenario_, clearance(before_.obstacles, p), key_ + ".position_m", "the target", p);
   }
 
   FaultList& list_;
@@ -96,9 +108,7 @@ void follow(Sequel& sequel, const Event& event) {
   }
   const auto* remove = std::get_if<RemoveTarget>(&event.action);
   if (remove == nullptr || remove->target >= sequel.targets) return;
-  if (std::find(sequel.removed.begin(), sequel.removed.end(), remove->target) != sequel.removed.end()) return;
-  sequel.removed.push_back(remove->target);
-  --sequel.served;
+  if (sequel.removed.insert(remove->target).second) --sequel.served;
 }
 
 // Returns the largest number of targets at a time. Events that wait for a moment of the mission are
@@ -113,14 +123,16 @@ std::size_t check_in_order(FaultList& list, const Scenario& scenario, std::size_
   const auto adds_late = static_cast<std::size_t>(std::count_if(order.begin(), order.end(), [&](std::size_t i) {
     return waits(i) && std::holds_alternative<AddTarget>(events[i].action);
   }));
+  const End end(scenario);
   Sequel sequel{targets + adds_late, targets, targets, {}, scenario.obstacles};
   for (const std::size_t i : order) {
     if (waits(i)) continue;
-    CheckEventFits(list, scenario, i, robots, sequel);  // NOLINT(bugprone-unused-raii): its constructor is the check
+    CheckEventFits(list, scenario, end, i, robots,
+                   sequel);  // NOLINT(bugprone-unused-raii): its constructor is the check
     follow(sequel, events[i]);
   }
   for (const std::size_t i : order)
-    if (waits(i)) CheckEventFits(list, scenario, i, robots, sequel);
+    if (waits(i)) CheckEventFits(list, scenario, end, i, robots, sequel);
   return sequel.most + adds_late;
 }
 
@@ -146,7 +158,7 @@ std::vector<Fault> event_faults(const Scenario& scenario, const Present* now) {
   if (scenario.events[last].when != Event::When::time)
     list.fail(element("events", last) + ".when", "what somebody does happens now");
   // NOLINTNEXTLINE(bugprone-unused-raii): its constructor is the check
-  CheckEventFits(list, scenario, last, robots, {now->targets, 0, 0, {}, now->obstacles});
+  CheckEventFits(list, scenario, End(scenario), last, robots, {now->targets, 0, 0, {}, now->obstacles});
   return list.take();
 }
 

@@ -50,8 +50,9 @@ void check_event_values(FaultList& list, const std::vector<Event>& events);
 bool check_events_fit(FaultList& list, const Scenario& scenario, std::size_t targets, std::size_t robots);
 // Checks that the body model can represent this obstacle.
 void check_obstacle_body(FaultList& list, const Scenario& scenario, const std::string& key, const Obstacle& obstacle);
-// Checks that a robot can get near enough to a target at p, named as in a fault, with key `key`.
-void check_target_room(FaultList& list, const Scenario& scenario, const std::vector<Obstacle>& obstacles,
-                       const std::string& key, const std::string& name, Vec2 p);
+// Checks that a robot can get near enough to a target at p, named as in a fault, with key `key`. `room`: its distance
+// to the nearest obstacle, or a robot's radius if that is less.
+void check_target_room(FaultList& list, const Scenario& scenario, double room, const std::string& key,
+                       const std::string& name, Vec2 p);
 
 }  // namespace banyan::world

@@ -142,9 +142,9 @@ void check_values(FaultList& list, const Scenario& scenario) {
 
 // ---- Round two: how they fit ----
 
-std::string target_key(const Scenario& scenario, std::size_t i) {
-  if (const std::size_t targets = mission_targets(scenario).size(); i >= targets)
-    return element("battery.places_m", i - targets);
+// `missions`: how many targets are the mission's own; places to charge follow.
+std::string target_key(const Scenario& scenario, std::size_t missions, std::size_t i) {
+  if (i >= missions) return element("battery.places_m", i - missions);
   return std::holds_alternative<std::vector<Vec2>>(scenario.targets) ? element("targets.positions_m", i) : "targets";
 }
 
@@ -188,13 +188,18 @@ void check_proportions(FaultList& list, const Scenario& scenario) {
 
 // mission.time_limit_s, as it is given or as it follows.
 void check_time_limit(FaultList& list, const Scenario& scenario) {
-  if (time_limit_s(scenario) >= scenario.tick_s) return;
-  list.fail("mission.time_limit_s",
-            scenario.mission.time_limit_s > 0.0
-                ? "is " + short_text(scenario.mission.time_limit_s) +
-                      " s, shorter than a tick: give at least tick_s = " + short_text(scenario.tick_s) +
-                      " s, or 0 for ten times a straight drive to the farthest target"
-                : "must be given when no target is away from swarm.start.center_m");
+  const double limit_s = time_limit_s(scenario);
+  if (limit_s >= scenario.tick_s) return;
+  const std::string least = "give at least tick_s = " + short_text(scenario.tick_s) + " s";
+  if (scenario.mission.time_limit_s > 0.0)
+    list.fail("mission.time_limit_s", "is " + short_text(limit_s) + " s, shorter than a tick: " + least +
+                                          ", or 0 for ten times a straight drive to the farthest target");
+  else if (limit_s > 0.0)
+    list.fail("mission.time_limit_s", "is not given, and ten times a straight drive to the farthest target is " +
+                                          short_text(limit_s) + " s, shorter than a tick: " + least);
+  else
+    list.fail("mission.time_limit_s",
+              "is not given, and no target is away from swarm.start.center_m, so that no limit follows: " + least);
 }
 
 // The keys of the scenario's own parameters that the text names.
@@ -279,6 +284,47 @@ std::string far_text(const Scenario& scenario, Vec2 p) {
          " m; bring it nearer, or set a longer range";
 }
 
+struct Breadth {
+  double from, to;  // along x
+};
+Breadth breadth_of(const Disc& disc) noexcept { return {disc.center.x - disc.radius_m, disc.center.x + disc.radius_m}; }
+Breadth breadth_of(const Box& box) noexcept {
+  const double half = 0.5 * norm(box.size);  // however it is turned
+  return {box.center.x - half, box.center.x + half};
+}
+Breadth breadth_of(const Wall& wall) noexcept {
+  return {std::min(wall.from.x, wall.to.x), std::max(wall.from.x, wall.to.x)};
+}
+
+// Each point's distance to the nearest obstacle, `reach` if none is nearer than that, none above 0 inside one. By a
+// sweep along x: of thousands of points and thousands of obstacles, all pairs would be too many.
+std::vector<double> rooms(const std::vector<Obstacle>& obstacles, const std::vector<Vec2>& points, double reach) {
+  std::vector<double> room(points.size(), reach);
+  if (obstacles.empty()) return room;
+  const double margin = reach * (1.0 + 1e-9);  // an end may be rounded
+  std::vector<Breadth> breadth(obstacles.size());
+  for (std::size_t k = 0; k < obstacles.size(); ++k) {
+    breadth[k] = std::visit([](const auto& obstacle) { return breadth_of(obstacle); }, obstacles[k]);
+    breadth[k].from -= margin + 1e-9 * std::abs(breadth[k].from);
+    breadth[k].to += margin + 1e-9 * std::abs(breadth[k].to);
+  }
+  std::vector<std::size_t> order(points.size()), coming(obstacles.size()), near;
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::iota(coming.begin(), coming.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return points[a].x < points[b].x; });
+  std::sort(coming.begin(), coming.end(),
+            [&](std::size_t a, std::size_t b) { return breadth[a].from < breadth[b].from; });
+  auto next = coming.begin();
+  for (const std::size_t i : order) {
+    const Vec2 p = points[i];
+    for (; next != coming.end() && breadth[*next].from <= p.x; ++next) near.push_back(*next);
+    std::erase_if(near, [&](std::size_t k) { return breadth[k].to < p.x; });
+    for (auto k = near.begin(); k != near.end() && room[i] > 0.0; ++k)  // inside one is enough
+      room[i] = std::min(room[i], clearance(obstacles[*k], p));
+  }
+  return room;
+}
+
 // Overlaps and connected components of a list start.
 void check_listed_cluster(FaultList& list, const Scenario& scenario) {
   const std::vector<Vec2>& p = scenario.swarm.start.positions;
@@ -303,8 +349,9 @@ void check_listed_cluster(FaultList& list, const Scenario& scenario) {
   for (std::size_t i = 0; i < p.size(); ++i)
     if (const std::string text = far_text(scenario, p[i]); !text.empty())
       list.fail(element("swarm.start.positions_m", i), "is " + text);
+  const std::vector<double> room = rooms(scenario.obstacles, p, scenario.robot.radius_m);
   for (std::size_t i = 0; i < p.size(); ++i)
-    if (clearance(scenario.obstacles, p[i]) < scenario.robot.radius_m)
+    if (room[i] < scenario.robot.radius_m)
       list.fail(element("swarm.start.positions_m", i), "a robot at " + at(p[i]) + " touches an obstacle");
 }
 
@@ -398,8 +445,10 @@ void check_swarm_fits(FaultList& list, const Scenario& scenario) {
 void check_targets_fit(FaultList& list, const Scenario& scenario) {
   const std::vector<Vec2> targets = target_positions(scenario);
   const std::size_t robots = robot_count(scenario);
+  const std::size_t missions = mission_targets(scenario).size();
+  const std::vector<double> room = rooms(scenario.obstacles, targets, scenario.robot.radius_m);
   for (std::size_t i = 0; i < targets.size(); ++i)
-    check_target_room(list, scenario, scenario.obstacles, target_key(scenario, i), "target " + std::to_string(i),
+    check_target_room(list, scenario, room[i], target_key(scenario, missions, i), "target " + std::to_string(i),
                       targets[i]);
   if (!check_events_fit(list, scenario, targets.size(), robots)) return;
   const std::size_t needed = least_robots(targets, target_tolerance_m(scenario), scenario.radio.range_m);
@@ -430,11 +479,10 @@ void check_obstacle_body(FaultList& list, const Scenario& scenario, const std::s
                        " both sides must be at least " + short_text(least_m) + " m; a wall has no thickness");
 }
 
-void check_target_room(FaultList& list, const Scenario& scenario, const std::vector<Obstacle>& obstacles,
-                       const std::string& key, const std::string& name, Vec2 p) {
+void check_target_room(FaultList& list, const Scenario& scenario, double room, const std::string& key,
+                       const std::string& name, Vec2 p) {
   if (const std::string text = far_text(scenario, p); !text.empty())
     list.fail(key, name + " at " + at(p) + " is " + text);
-  const double room = clearance(obstacles, p);
   if (room <= 0.0) {
     list.fail(key, name + " at " + at(p) + " lies inside an obstacle");
   } else if (room + target_tolerance_m(scenario) < scenario.robot.radius_m) {

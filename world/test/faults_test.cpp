@@ -3,12 +3,15 @@
 #include "banyan/world/faults.hpp"
 
 #include <gtest/gtest.h>
+#include <time.h>
 
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <random>
 
 #include "banyan/controller/core/algorithm.hpp"
+#include "banyan/world/obstacles.hpp"
 #include "banyan/world/schema.hpp"
 #include "plain_scenario.hpp"
 
@@ -50,7 +53,7 @@ const std::vector<Case>& cases() {
       {"mission.settle_s", "-1", [](Scenario& s) { s.mission.settle_s = -1; }},
       {"mission.link_redundancy", "is 2, but inwards keeps one path; of those here, more are kept by convoy",
        [](Scenario& s) { s.mission.algorithm = "inwards", s.mission.link_redundancy = 2; }},
-      {"mission.time_limit_s", "must be given",
+      {"mission.time_limit_s", "is not given, and no target is away from swarm.start.center_m",
        [](Scenario& s) {
          s.swarm.robots = 9, s.targets = RingTargets{3, 0.0, 0, {}};
        }},
@@ -158,6 +161,12 @@ const std::vector<Case>& cases() {
        [](Scenario& s) { s.robot.wheel_limit_m_s = 100.0; }},
       {"mission.time_limit_s", "is 0.04 s, shorter than a tick: give at least tick_s = 0.1 s",
        [](Scenario& s) { s.mission.time_limit_s = 0.04; }},
+      {"mission.time_limit_s",
+       "is not given, and ten times a straight drive to the farthest target is 0.05 s, shorter than a tick: give at "
+       "least tick_s = 0.1 s",
+       [](Scenario& s) {
+         s.targets = std::vector<Vec2>{{0.001, 0}};
+       }},
       {"targets.positions_m[1]",
        "target 1 at (0, 401) is 401 m from swarm.start.center_m, farther than 200 * radio.range_m = 400 m",
        [](Scenario& s) {
@@ -368,6 +377,67 @@ TEST(Faults, AProgramMayHaveASeedThatNoFileCanHold) {
   Scenario scenario = plain_scenario();
   scenario.seed = std::numeric_limits<std::uint64_t>::max();
   EXPECT_EQ(shown(faults(scenario)), "");
+}
+
+// 5,000 targets among 300 obstacles of all kinds, against each pair of them looked at.
+TEST(Faults, ATargetInOrAtAnObstacleIsFoundAsByLookingAtEachPair) {
+  Scenario s = plain_scenario();
+  std::mt19937_64 generator(7);
+  const auto number = [&](double least, double most) {
+    return least + (most - least) * 0x1p-53 * static_cast<double>(generator() >> 11U);
+  };
+  const auto point = [&] { return Vec2{number(-40, 40), number(-40, 40)}; };
+  for (int k = 0; k < 100; ++k) {
+    s.obstacles.emplace_back(Disc{point(), number(0.1, 1.0)});
+    s.obstacles.emplace_back(Box{point(), {number(0.1, 3.0), number(0.1, 1.0)}, number(-3, 3)});
+    const Vec2 from = point();
+    s.obstacles.emplace_back(Wall{from, from + Vec2{number(-9, 9), number(0.1, 2.0)}});
+  }
+  std::vector<Vec2> targets;
+  for (int k = 0; k < 5000; ++k) targets.push_back(point());
+  s.targets = targets;
+  s.swarm.robots = 6000;
+  s.swarm.start.center = {200, 0};
+  s.mission.target_tolerance_m = 0.02;
+  std::string expected;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const double room = clearance(s.obstacles, targets[i]);
+    const std::string key = "targets.positions_m[" + std::to_string(i) + "]";
+    if (room <= 0.0) expected += key + " lies inside\n";
+    else if (room + 0.02 < s.robot.radius_m) expected += key + " is so close\n";
+  }
+  std::string found;
+  for (const Fault& fault : faults(s)) {
+    if (!fault.key.starts_with("targets.positions_m")) continue;
+    found += fault.key + (fault.text.find("lies inside") != std::string::npos ? " lies inside\n" : " is so close\n");
+  }
+  EXPECT_EQ(found, expected);
+  EXPECT_GT(std::count(expected.begin(), expected.end(), '\n'), 200);
+}
+
+// Ten thousand targets and robots with as many obstacles or events and more are hundreds of millions of pairs: what is
+// counted is the time of this thread, generously.
+TEST(Faults, TenThousandTargetsObstaclesAndEventsAreCheckedFast) {
+  const auto seconds = [] {
+    timespec now{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  };
+  Scenario ring = plain_scenario();
+  std::vector<Vec2> stand;
+  for (int k = 0; k < 10'100; ++k) stand.push_back({0.5 * (k / 100) - 25.0, 0.5 * (k % 100) - 25.0});
+  use_list(ring, stand);
+  ring.targets = RingTargets{10'000, 100.0, 0.0, {}};
+  Scenario walled = ring, busy = ring, heap = ring;
+  for (int k = 0; k < 50'000; ++k) walled.obstacles.emplace_back(Disc{{-300.0 + 0.002 * k, 150.0}, 0.0009});
+  for (int k = 0; k < 40'000; ++k)
+    busy.events.push_back(event(MoveTarget{static_cast<std::size_t>(k % 10'000), {1.0, 1.0}}));
+  heap.targets = std::vector<Vec2>(10'000, Vec2{5.0, 0.0});
+  for (const Scenario& s : {walled, busy, heap}) {
+    const double begin_s = seconds();
+    EXPECT_EQ(shown(faults(s)), "");
+    EXPECT_LT(seconds() - begin_s, 3.0);
+  }
 }
 
 // 5,000 robots at one point are 12 million pairs.

@@ -30,7 +30,10 @@ TEST(Names, AWordCutShortIsANearMissHoweverLong) {
 TEST(Names, ALongTextIsCutShortInAMessage) {
   EXPECT_EQ(the_text("fast"), "the text \"fast\"");
   EXPECT_EQ(the_text(std::string(50, 'x')), "the text \"" + std::string(37, 'x') + "...\"");
+  EXPECT_EQ(the_text(std::string(36, 'x') + "ü" + std::string(9, 'y')), "the text \"" + std::string(36, 'x') + "...\"");
 }
+
+TEST(Names, ATextInAMessageIsPrintable) { EXPECT_EQ(the_text("\x1b[2J\n"), "the text \"\\x1b[2J\\n\""); }
 
 }  // namespace
 }  // namespace banyan::world

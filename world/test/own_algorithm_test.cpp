@@ -112,7 +112,10 @@ TEST(OwnAlgorithm, ImpossibleParametersAreToldWithItsName) {
     const World world(scenario, mine);
     FAIL() << "accepted";
   } catch (const std::invalid_argument& e) {
-    EXPECT_STREQ(e.what(), "mine: recruitment_distance (E) must be below safe_range (S)");
+    EXPECT_STREQ(
+        e.what(),
+        "mine: recruitment_distance (E) must be below safe_range (S), else an edge would stop growing before it "
+        "asks for a spare; here safe_range = 0.6 C, recruitment_distance = 0.660676 C by default");
   }
 }
 

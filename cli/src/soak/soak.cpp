@@ -171,7 +171,7 @@ class Soak {
         directory_.c_str());
     text += table_of(journal_.rows());
     text += format("Again, one alone: banyan soak --seed %" PRIu64 " --from N --missions 1 --out DIR\n", options_.seed);
-    print(text);
+    print_text(text);
   }
 
   struct Count {
@@ -196,9 +196,9 @@ int watch_file(const SoakOptions& options) {
   const world::Scenario& scenario = loaded.configuration.scenario;
   const SoakOutcome outcome = Isolated(scenario, true).wait();
   if (stop_signal() != 0) return exit_signal + stop_signal();
-  print(format("%s (%s): %s\n", scenario.name.c_str(), text_of(traits_of(scenario)).c_str(),
-               outcome.findings.empty() ? "nothing found" : "found") +
-        lines_of(outcome, scenario));
+  print_text(format("%s (%s): %s\n", scenario.name.c_str(), text_of(traits_of(scenario)).c_str(),
+                    outcome.findings.empty() ? "nothing found" : "found") +
+             lines_of(outcome, scenario));
   const bool broken = std::any_of(outcome.findings.begin(), outcome.findings.end(),
                                   [&](const Finding& f) { return is_promised(f.kind, scenario); });
   return broken ? exit_lost : exit_done;

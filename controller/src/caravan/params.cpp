@@ -81,8 +81,10 @@ constexpr Parameter<Params> rows[] = {
 std::span<const Parameter<Params>> parameters() noexcept { return rows; }
 
 std::string_view fault(const Params& p) noexcept {
-  if (p.need_distance >= p.longest_edge) return "need_distance must be below longest_edge (G)";
-  if (p.pull_start >= p.longest_edge) return "pull_start must be below longest_edge (G)";
+  if (p.need_distance >= p.longest_edge)
+    return "need_distance must be below longest_edge (G), else no edge would ever be worth a spare";
+  if (p.pull_start >= p.longest_edge)
+    return "pull_start must be below longest_edge (G), else a child would never tow its parent";
   return {};
 }
 

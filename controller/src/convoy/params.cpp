@@ -90,14 +90,20 @@ constexpr Parameter<ConvoyParams> of_convoy[] = {
 std::span<const Parameter<ConvoyParams>> convoy_parameters() noexcept { return of_convoy; }
 
 std::string_view convoy_fault(const ConvoyParams& params) noexcept {
-  if (!(params.pull_start < params.ideal_distance)) return "pull_start must be below ideal_distance (delta)";
+  if (!(params.pull_start < params.ideal_distance))
+    return "pull_start must be below ideal_distance (delta), else a child would never pull its parent along";
   if (const std::string_view text = power_fault(params); !text.empty()) return text;
-  if (!(params.join_margin < params.ideal_distance)) return "join_margin must be below ideal_distance (delta)";
+  if (!(params.join_margin < params.ideal_distance))
+    return "join_margin must be below ideal_distance (delta), else no spare would be near enough to join an edge";
   // Also for those who choose a shorter delta and leave the rest as it is.
   const float longest = std::max(params.ideal_distance, longest_link);
-  if (!(params.compact_distance < longest)) return "compact_distance must be below ideal_distance (delta)";
-  if (!(params.merge_distance <= longest)) return "merge_distance must not exceed ideal_distance (delta)";
-  if (!(params.release_distance <= longest)) return "release_distance must not exceed ideal_distance (delta)";
+  if (!(params.compact_distance < longest))
+    return "compact_distance must be below ideal_distance (delta), else chains would stretch until their edges break";
+  if (!(params.merge_distance <= longest))
+    return "merge_distance must not exceed ideal_distance (delta), else robots would be saved by edges that break";
+  if (!(params.release_distance <= longest))
+    return "release_distance must not exceed ideal_distance (delta), else robots would be released onto edges that "
+           "break";
   if (!(params.shortest_split < longest))
     return "shortest_split must be below ideal_distance (delta), else no edge is long enough to be split";
   return {};

@@ -59,7 +59,9 @@ std::string_view healing_fault(const HealingParams& params) noexcept {
   if (!(2.0F * params.claim_radius < 1.0F))
     return "claim_radius must be below 0.5 C, else two robots that do not hear each other could become root";
   if (!(patience_hindered * params.give_up_after_drives * params.rounds_per_drive < 65535.0F))
-    return "give_up_after_drives must be below 3640 control periods: near obstacles it is eighteen times as long";
+    return "give_up_after_drives must be below 3,640 rounds, else robots cannot count it: near obstacles it is "
+           "eighteen times "
+           "as long";
   return {};
 }
 

@@ -81,12 +81,21 @@ std::span<const Parameter<Params>> parameters() noexcept { return rows; }
 std::string_view fault(const Params& p) noexcept {
   constexpr float longest = 30'000.0F;  // rounds: the sequence numbers of one epoch stay comparable (core/serial.hpp)
   if (!(p.reconfiguration_drives * p.rounds_per_drive < longest))
-    return "reconfiguration_drives (R) must be below 30,000 rounds";
+    return "reconfiguration_drives (R) must be below 30,000 rounds, else the numbers of its messages run out";
   if (!(p.avoidance_range < p.recruitment_distance))
-    return "avoidance_range (A) must be below recruitment_distance (E)";
-  if (!(p.recruitment_distance < p.safe_range)) return "recruitment_distance (E) must be below safe_range (S)";
-  if (!(p.safe_range < p.ideal_distance)) return "safe_range (S) must be below ideal_distance (delta)";
-  if (!(p.ideal_distance <= 1.0F)) return "ideal_distance (delta) must not exceed the radio range, 1 C";
+    return "avoidance_range (A) must be below recruitment_distance (E), else an edge's ends would push away the spare "
+           "that "
+           "it asks for";
+  if (!(p.recruitment_distance < p.safe_range))
+    return "recruitment_distance (E) must be below safe_range (S), else an edge would stop growing before it asks for "
+           "a "
+           "spare";
+  if (!(p.safe_range < p.ideal_distance))
+    return "safe_range (S) must be below ideal_distance (delta), else a robot would still move away from its parent "
+           "where "
+           "the edge is in danger";
+  if (!(p.ideal_distance <= 1.0F))
+    return "ideal_distance (delta) must not exceed the radio range, 1 C: beyond it robots do not hear each other";
   return {};
 }
 

@@ -62,11 +62,19 @@ std::span<const Parameter<TreeParams>> tree_parameters() noexcept { return of_tr
 
 std::string_view tree_fault(const TreeParams& params) noexcept {
   if (!(params.avoidance_range < params.recruitment_distance))
-    return "avoidance_range (A) must be below recruitment_distance (E)";
+    return "avoidance_range (A) must be below recruitment_distance (E), else an edge's ends would push away the spare "
+           "that "
+           "it asks for";
   if (!(params.recruitment_distance < params.safe_range))
-    return "recruitment_distance (E) must be below safe_range (S)";
-  if (!(params.safe_range < params.ideal_distance)) return "safe_range (S) must be below ideal_distance (delta)";
-  if (!(params.ideal_distance <= 1.0F)) return "ideal_distance (delta) must not exceed the radio range, 1 C";
+    return "recruitment_distance (E) must be below safe_range (S), else an edge would stop growing before it asks for "
+           "a "
+           "spare";
+  if (!(params.safe_range < params.ideal_distance))
+    return "safe_range (S) must be below ideal_distance (delta), else a robot would still move away from its parent "
+           "where "
+           "the edge is in danger";
+  if (!(params.ideal_distance <= 1.0F))
+    return "ideal_distance (delta) must not exceed the radio range, 1 C: beyond it robots do not hear each other";
   return {};
 }
 

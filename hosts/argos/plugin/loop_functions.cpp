@@ -15,6 +15,7 @@
 #include <cstdio>
 
 #include "banyan/algorithms/algorithms.hpp"
+#include "banyan/controller/core/printable.hpp"
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/world/names.hpp"
 #include "simulator.hpp"
@@ -319,7 +320,7 @@ bool LoopFunctions::IsExperimentFinished() { return lost_ || stop_signal != 0 ||
 void LoopFunctions::finish(bool interrupted) {
   if (done_ || mission_ == nullptr) return;
   done_ = true;
-  LOG << "[INFO] banyan: " << mission_->finish(interrupted && !mission_->finished()) << '\n';
+  LOG << "[INFO] banyan: " << printable_lines(mission_->finish(interrupted && !mission_->finished())) << '\n';
 }
 
 void LoopFunctions::PostExperiment() { finish(true); }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "banyan/config/config.hpp"
+#include "banyan/controller/core/printable.hpp"
 #include "banyan/hosts/python/outside_swarm.hpp"
 #include "banyan/measure/metrics.hpp"
 #include "banyan/record/table.hpp"
@@ -26,7 +27,7 @@ namespace py = pybind11;
 // A scenario that cannot be: ScenarioError in Python, all problems in its text.
 class ScenarioFault : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit ScenarioFault(const std::string& text) : std::runtime_error(printable_lines(text)) {}
 };
 
 // A Python object that C++ may keep, copy and drop without holding the interpreter.

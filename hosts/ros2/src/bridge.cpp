@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "banyan/controller/core/printable.hpp"
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/hosts/ros2/bases.hpp"
 #include "banyan/hosts/ros2/names.hpp"
@@ -80,7 +81,7 @@ class Bridge {
   [[nodiscard]] std::int64_t stamp_ns() const { return options_.max_age_s > 0.0 ? now_ns() : newest_ns_; }
   [[nodiscard]] std::size_t id(std::size_t place) const noexcept { return options_.first + place; }
 
-  static void say(const std::string& text) { std::fprintf(stderr, "banyan-ros2: %s\n", text.c_str()); }
+  static void say(const std::string& text) { std::fprintf(stderr, "banyan-ros2: %s\n", printable_lines(text).c_str()); }
 
   std::vector<int> descriptors() const {
     std::vector<int> list{node_.descriptor()};

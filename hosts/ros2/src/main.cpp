@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "banyan/controller/core/printable.hpp"
 #include "banyan/hosts/ros2/bridge.hpp"
 
 int main(int argc, char** argv) {
@@ -22,10 +23,10 @@ int main(int argc, char** argv) {
     const ros2::Environment environment = [](const char* name) -> const char* { return std::getenv(name); };
     return ros2::run_bridge(ros2::parse_options(arguments, environment));
   } catch (const udp::OptionError& error) {
-    std::fprintf(stderr, "banyan-ros2: %s\n", error.what());
+    std::fprintf(stderr, "banyan-ros2: %s\n", printable_lines(error.what()).c_str());
     return bad_usage;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "banyan-ros2: %s\n", error.what());
+    std::fprintf(stderr, "banyan-ros2: %s\n", printable_lines(error.what()).c_str());
     return failed;
   }
 }

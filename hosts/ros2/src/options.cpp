@@ -33,9 +33,13 @@ BridgeOption flag(const char* name, const char* meaning, bool Options::*member, 
 const std::vector<BridgeOption>& rows() {
   static const std::vector<BridgeOption> list = {
       whole("--robots", "number of robots, with ids from 0; this or --id is required", 1, most_robots,
-            [](Options& o, double n) { o.robots = static_cast<std::size_t>(n); }),
+            [](Options& o, double n) {
+              if (o.robots != 0) throw OptionError("cannot be beside --id: give one of the two");
+              o.robots = static_cast<std::size_t>(n);
+            }),
       whole("--id", "one robot alone, with this id", 0, largest_id,
             [](Options& o, double n) {
+              if (o.robots != 0) throw OptionError("cannot be beside --robots: give one of the two");
               o.first = static_cast<std::size_t>(n);
               o.robots = 1;
             }),

@@ -65,6 +65,10 @@ TEST(Ros2Options, WhatIsWrongIsSaid) {
             "--node \"a/b\" must consist of letters, digits and _, and not begin with a digit");
   EXPECT_EQ(fault(with({"--bases", "127.0.0.1:5000", "--cmd-vel", ""})), "--cmd-vel must not be empty");
   EXPECT_EQ(fault(with({"--frame", ""})), "--frame must not be empty");
+  EXPECT_EQ(fault({"--id", "1", "--id", "2", "--poses", "127.0.0.1:5000"}), "--id is given twice; give it once");
+  EXPECT_EQ(fault(with({"--node", "a", "--node", "b"})), "--node is given twice; give it once");
+  EXPECT_EQ(fault({"--robots", "3", "--id", "1"}), "--id cannot be beside --robots: give one of the two");
+  EXPECT_EQ(fault({"--id", "1", "--robots", "3"}), "--robots cannot be beside --id: give one of the two");
   EXPECT_NE(usage().find("--max-age"), std::string::npos);
 }
 

@@ -7,15 +7,24 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <sstream>
 
 namespace banyan::udp {
 namespace {
+
+constexpr std::size_t largest_file = std::size_t{1} << 20;  // 256 keys take 18 KB, and there are comments
+
+std::string kind_of(mode_t mode) {
+  if (S_ISDIR(mode)) return "a directory";
+  if (S_ISFIFO(mode)) return "a pipe";
+  if (S_ISSOCK(mode)) return "a socket";
+  return "a device";
+}
 
 std::optional<SecretKey> parse_key(const std::string& line) {
   std::istringstream words(line);
@@ -32,11 +41,32 @@ std::optional<SecretKey> parse_key(const std::string& line) {
   return key;
 }
 
-void check_permissions(const std::string& path) {
+// What is checked is what is read: both through one descriptor. A pipe without a writer would be waited for for ever,
+// and what comes out of one cannot be read again when keys change.
+std::string text_of(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0) throw KeyError(path + ": " + std::strerror(errno));
+  struct Closer {
+    int file;
+    ~Closer() { ::close(file); }
+  } closer{file};
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) throw KeyError(path + ": " + std::strerror(errno));
+  if (::fstat(file, &status) != 0) throw KeyError(path + ": " + std::strerror(errno));
+  if (!S_ISREG(status.st_mode))
+    throw KeyError(path + ": is no regular file, but " + kind_of(status.st_mode) +
+                   "; keys are read from a file that only its owner may read: banyan hub --new-key FILE makes one");
   if ((status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
     throw KeyError(path + ": others than its owner have access to this key file; chmod 600 it");
+  std::string text;
+  std::array<char, 4096> buffer{};
+  for (;;) {
+    const ssize_t got = ::read(file, buffer.data(), buffer.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw KeyError(path + ": cannot be read: " + std::strerror(errno));
+    if (got == 0) return text;
+    text.append(buffer.data(), static_cast<std::size_t>(got));
+    if (text.size() > largest_file) throw KeyError(path + ": is larger than 1 MiB: this is no key file");
+  }
 }
 
 void start_library() {
@@ -52,9 +82,7 @@ const SecretKey* KeyRing::find(std::uint8_t number) const noexcept {
 
 KeyRing read_keys(const std::string& path) {
   start_library();
-  check_permissions(path);
-  std::ifstream file(path);
-  if (!file) throw KeyError(path + ": cannot be read");
+  std::istringstream file(text_of(path));
   std::vector<SecretKey> keys;
   std::size_t number = 0;
   for (std::string line; std::getline(file, line);) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "banyan/algorithms/algorithms.hpp"
+#include "banyan/controller/core/printable.hpp"
 #include "banyan/hosts/udp/robot_process.hpp"
 
 int main(int argc, char** argv) {
@@ -21,10 +22,10 @@ int main(int argc, char** argv) {
     }
     return run_robot(parse_robot_options(arguments), banyan::algorithms());
   } catch (const OptionError& error) {
-    std::fprintf(stderr, "banyan-robot: %s\n", error.what());
+    std::fprintf(stderr, "banyan-robot: %s\n", banyan::printable_lines(error.what()).c_str());
     return bad_usage;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "banyan-robot: %s\n", error.what());
+    std::fprintf(stderr, "banyan-robot: %s\n", banyan::printable_lines(error.what()).c_str());
     return failed;
   }
 }

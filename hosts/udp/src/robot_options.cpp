@@ -89,7 +89,7 @@ const std::vector<Option>& options() {
           [](const RobotOptions& o) { return !o.setup.platform.line_of_sight; },
           [](RobotOptions& o) { o.setup.platform.line_of_sight = false; }),
       {"--set", "KEY=VALUE", "a parameter of the algorithm, such as safe_range=0.85; may be repeated", set_parameter,
-       parameters_of},
+       parameters_of, true},
       real(
           "--stop-after",
           "it stands still after this long without a word from the hub or, with --peers, from its base, s; default 0.5",

@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 
+#include "banyan/controller/core/printable.hpp"
 #include "banyan/hosts/udp/contact.hpp"
 #include "banyan/hosts/udp/line_base.hpp"
 
@@ -76,7 +77,7 @@ class Process {
 
   void refresh_keys(bool anyway = false) {
     if (const std::string fault = keys_.refresh(anyway); !fault.empty())
-      std::fprintf(stderr, "banyan-robot %d: %s\n", options_.id, fault.c_str());
+      std::fprintf(stderr, "banyan-robot %d: %s\n", options_.id, printable(fault).c_str());
   }
 
   void hear() {

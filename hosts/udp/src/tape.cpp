@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -17,6 +18,9 @@ constexpr std::array<std::uint8_t, 8> mark = {'b', 'a', 'n', 'y', 'a', 'n', '2',
 constexpr std::size_t header = 24;
 
 Bytes bytes_of(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
+    throw TapeError(path + ": is no regular file; a tape is read and then written on");  // a pipe would be waited for
   std::ifstream file(path, std::ios::binary);
   if (!file) throw TapeError(path + ": cannot be read");
   return {std::istreambuf_iterator<char>(file), {}};

@@ -62,6 +62,23 @@ TEST_F(KeyFiles, OthersMustNotReadIt) {
   }
 }
 
+// Nobody writes into this pipe: who opens it to read waits for ever.
+TEST_F(KeyFiles, WhatIsNoRegularFileIsRefusedAndNotWaitedFor) {
+  ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+  EXPECT_NE(fault().find(path_ + ": is no regular file, but a pipe; keys are read from a file"), std::string::npos)
+      << fault();
+  std::filesystem::remove(path_);
+  std::filesystem::create_directory(path_);
+  EXPECT_NE(fault().find("is no regular file, but a directory"), std::string::npos) << fault();
+  std::filesystem::remove(path_);
+  std::filesystem::create_symlink("/dev/zero", path_);
+  EXPECT_NE(fault().find("is no regular file, but a device"), std::string::npos) << fault();
+  std::filesystem::remove(path_);
+  EXPECT_NE(fault().find("No such file"), std::string::npos) << fault();
+  write(std::string((1U << 20U) + 1, '#'));
+  EXPECT_NE(fault().find("larger than 1 MiB"), std::string::npos) << fault();
+}
+
 TEST_F(KeyFiles, WhatIsWrongIsSaidWithItsLine) {
   const std::string line = path_ + ":1: must be a number from 0 to 255 and 64 hexadecimal digits";
   for (const std::string& wrong : std::vector<std::string>{"1 " + a_ + "a", "1 " + a_.substr(1), "256 " + a_,

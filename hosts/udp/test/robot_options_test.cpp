@@ -67,9 +67,12 @@ TEST(RobotOptions, WhatIsWrongIsSaid) {
   EXPECT_EQ(fault(with({"--rnage", "2"})), "\"--rnage\" is unknown; see --help");
   EXPECT_EQ(fault(with({"--range"})), "--range needs a value");
   EXPECT_EQ(fault(with({"--range", "nan"})), "--range must be a number from 0.001 to 10000, not \"nan\"");
-  EXPECT_EQ(fault(with({"--id", "1.5"})), "--id must be a whole number, not \"1.5\"");
-  EXPECT_EQ(fault(with({"--id", "65534"})), "--id must be a number from 0 to 65533, not \"65534\"");
+  EXPECT_EQ(fault({"--id", "1.5"}), "--id must be a whole number, not \"1.5\"");
+  EXPECT_EQ(fault({"--id", "65534"}), "--id must be a number from 0 to 65533, not \"65534\"");
   EXPECT_EQ(fault(with({"--set", "x"})), "--set must be KEY=VALUE, not \"x\"");
+  EXPECT_EQ(fault(with({"--id", "2"})), "--id is given twice; give it once");
+  EXPECT_EQ(fault(with({"--range", "2", "--range", "2"})), "--range is given twice; give it once");
+  EXPECT_EQ(fault(with({"--holonomic", "--set", "safe_range=0.8", "--holonomic", "--set", "ideal_distance=0.7"})), "");
   EXPECT_NE(robot_usage().find("--stop-after"), std::string::npos);
 }
 

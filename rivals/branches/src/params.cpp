@@ -38,9 +38,12 @@ constexpr Parameter<Params> of_branches[] = {
 std::span<const Parameter<Params>> parameters() noexcept { return of_branches; }
 
 std::string_view fault(const Params& params) noexcept {
-  if (!(params.joining < params.separation)) return "joining_distance must be below separation_distance";
-  if (!(params.separation < params.longest_link)) return "separation_distance must be below longest_link";
-  if (!(params.spacing < params.longest_link)) return "connector_spacing must be below longest_link";
+  if (!(params.joining < params.separation))
+    return "joining_distance must be below separation_distance, else a connector just left behind would join again";
+  if (!(params.separation < params.longest_link))
+    return "separation_distance must be below longest_link, else a leader would never leave a connector behind";
+  if (!(params.spacing < params.longest_link))
+    return "connector_spacing must be below longest_link, else no link would ever pull more strongly";
   return {};
 }
 

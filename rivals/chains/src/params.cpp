@@ -38,8 +38,10 @@ constexpr Parameter<Params> of_chains[] = {
 std::span<const Parameter<Params>> parameters() noexcept { return of_chains; }
 
 std::string_view fault(const Params& params) noexcept {
-  if (!(params.safe_distance < params.critical_distance)) return "safe_distance must be below critical_distance";
-  if (!(params.critical_distance < params.longest_link)) return "critical_distance must be below longest_link";
+  if (!(params.safe_distance < params.critical_distance))
+    return "safe_distance must be below critical_distance, else a robot would go on and go back at the same distance";
+  if (!(params.critical_distance < params.longest_link))
+    return "critical_distance must be below longest_link, else no robot would go back before its link is lost";
   return {};
 }
 

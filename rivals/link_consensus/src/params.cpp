@@ -26,8 +26,11 @@ constexpr Parameter<Params> of_link_consensus[] = {
 std::span<const Parameter<Params>> parameters() noexcept { return of_link_consensus; }
 
 std::string_view fault(const Params& params) noexcept {
-  if (!(params.add_distance < params.nominate_distance)) return "add_distance must be below nominate_distance";
-  if (!(params.nominate_distance < params.longest_link)) return "nominate_distance must be below longest_link";
+  if (!(params.add_distance < params.nominate_distance))
+    return "add_distance must be below nominate_distance, else a link just given up would be made anew";
+  if (!(params.nominate_distance < params.longest_link))
+    return "nominate_distance must be below longest_link, else no link would be given up before it holds the network "
+           "back";
   return {};
 }
 

@@ -30,9 +30,11 @@ constexpr Parameter<Params> of_mst[] = {
 std::span<const Parameter<Params>> parameters() noexcept { return of_mst; }
 
 std::string_view fault(const Params& params) noexcept {
-  if (!(params.trigger_distance < params.longest_link)) return "trigger_distance must be below longest_link";
+  if (!(params.trigger_distance < params.longest_link))
+    return "trigger_distance must be below longest_link, else no edge would ever ask for a new tree";
   if (!(params.countdown_rounds < params.least_period_rounds))
-    return "countdown_rounds must be below least_period_rounds";
+    return "countdown_rounds must be below least_period_rounds, else the next tree would be due before this one is "
+           "begun";
   return {};
 }
 

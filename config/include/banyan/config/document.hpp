@@ -34,7 +34,7 @@ struct Problem {
   std::string text;
   bool warning = false;
 };
-// "worlds/a.toml:12: error: radio.loss: ..."
+// "worlds/a.toml:12: error: radio.loss: ...", in one line and printable, whatever names and values are in it.
 [[nodiscard]] std::string to_string(const Problem& problem);
 
 struct Node {

@@ -13,6 +13,7 @@
 #include "banyan/measure/held.hpp"
 #include "banyan/measure/lasting.hpp"
 #include "banyan/measure/oracle.hpp"
+#include "banyan/measure/overlaps.hpp"
 #include "banyan/measure/parts.hpp"
 #include "banyan/measure/redundancy.hpp"
 #include "banyan/measure/roots.hpp"
@@ -22,8 +23,8 @@
 namespace banyan::measure {
 
 // In the order of their columns, and in which they look: whoever reads what another has found comes after it.
-using Metrics =
-    std::tuple<Course, Held, Oracle, TreeSize, Redundancy, Edges, Parts, Roots, Tallies, Effort, Lasting, Deaths>;
+using Metrics = std::tuple<Course, Held, Oracle, TreeSize, Redundancy, Edges, Parts, Roots, Tallies, Effort, Overlaps,
+                           Lasting, Deaths>;
 
 template <class> struct RowOf;
 template <class... Metric> struct RowOf<std::tuple<Metric...>> : Metric::Row... {};

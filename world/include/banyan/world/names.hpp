@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "banyan/controller/core/printable.hpp"
+
 namespace banyan::world {
 
 // Optimal string alignment distance: letters added, left out or replaced, or two neighbours exchanged.
@@ -54,10 +56,13 @@ namespace banyan::world {
   return text;
 }
 
-// A user's text in a message: the text "fast", cut short if it is long.
+// A user's text in a message: the text "fast", cut short if it is long, between two characters.
 [[nodiscard]] inline std::string the_text(std::string_view text) {
-  if (text.size() > 40) return "the text \"" + std::string(text.substr(0, 37)) + "...\"";
-  return "the text \"" + std::string(text) + "\"";
+  constexpr std::size_t most = 40, kept = 37;
+  if (text.size() <= most) return "the text \"" + printable(text) + "\"";
+  std::size_t end = 0;
+  for (std::size_t next = 0; next <= kept; next += std::max<std::size_t>(1, utf8_length(text.substr(next)))) end = next;
+  return "the text \"" + printable(text.substr(0, end)) + "...\"";
 }
 
 }  // namespace banyan::world

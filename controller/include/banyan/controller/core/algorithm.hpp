@@ -48,7 +48,7 @@ class Algorithm {
   // Their values in that setup, one per row, in the units of the table. Keys that the algorithm does not
   // know are ignored.
   [[nodiscard]] virtual std::vector<float> values(const Setup& setup) const = 0;
-  // The first fault in words ("recruitment_distance (E) must be below safe_range (S)"), or nothing.
+  // The first fault in words ("recruitment_distance (E) must be below safe_range (S), else ..."), or nothing.
   [[nodiscard]] virtual std::string fault(const Setup& setup) const = 0;
   // Whether it has rules for Setup::link_redundancy above 1.
   [[nodiscard]] virtual bool knows_redundancy() const noexcept { return false; }

@@ -102,6 +102,34 @@ inline std::string time_fault(std::span<const float> values, std::span<const Bou
   return {};
 }
 
+// Whether the text has this word, which may be part of another one.
+inline bool has_word(std::string_view text, std::string_view word) {
+  const auto in_a_name = [&](std::size_t k) {
+    return k < text.size() && (text[k] == '_' || (text[k] >= 'a' && text[k] <= 'z'));
+  };
+  for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1))
+    if ((at == 0 || !in_a_name(at - 1)) && !in_a_name(at + word.size())) return true;
+  return false;
+}
+
+// What the text is about, with the values that hold here: whoever sets one of two parameters has not seen the other.
+inline std::string with_values(std::string_view text, const Setup& setup, std::span<const float> values,
+                               std::span<const BoundParameter> rows, const Machine& machine) {
+  std::string list;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const ParameterInfo& info = *rows[k].info;
+    if (!has_word(text, info.key)) continue;
+    list += (list.empty() ? "; here " : ", ") + std::string(info.key) + " = " + plain(values[k]);
+    if (!info.unit.empty()) list += " " + std::string(info.unit);
+    if (*rows[k].value != values[k]) list += " (" + plain(*rows[k].value) + " with bodies this large)";
+    if (info.unit == "drives") list += " (" + plain(values[k] * machine.rounds_per_drive) + " rounds)";
+    const bool own = std::any_of(setup.parameters.begin(), setup.parameters.end(),
+                                 [&](const auto& parameter) { return parameter.first == info.key; });
+    if (!own) list += " by default";
+  }
+  return std::string(text) + list;
+}
+
 }  // namespace algorithm_detail
 
 template <class A> class AlgorithmOf : public Algorithm {
@@ -132,7 +160,8 @@ template <class A> class AlgorithmOf : public Algorithm {
     if (text.empty()) text = algorithm_detail::time_fault(values, bound, params);
     if (!text.empty()) return text;
     algorithm_detail::resolve(values, bound, params);
-    return std::string(of_.fault(params));
+    const std::string_view cross = of_.fault(params);
+    return cross.empty() ? std::string() : algorithm_detail::with_values(cross, setup, values, bound, params);
   }
   [[nodiscard]] bool knows_redundancy() const noexcept override {
     return requires(Params params) { params.link_redundancy; };

@@ -3,7 +3,6 @@
 // root learns that all robots have one (protocol 4, 5).
 #pragma once
 
-
 #include "banyan/controller/tree/robot.hpp"
 
 namespace banyan {

@@ -2,6 +2,7 @@
 // Command lines of programs that depend on nothing: a row per option says how it is read, written and explained.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -27,6 +28,7 @@ template <class Options> struct OptionRow {
   const char* meaning;
   std::function<void(Options&, const std::string&)> read;
   std::function<std::vector<std::string>(const Options&)> write;  // the values to write; none: as by default
+  bool repeats = false;                                           // may be given more than once
 };
 
 [[nodiscard]] inline double option_number(const std::string& text, double least, double most) {
@@ -95,10 +97,12 @@ template <class Options> std::string option_usage(std::span<const OptionRow<Opti
   return usage;
 }
 
-// Throws OptionError, also for values that are out of range or missing.
+// Throws OptionError, also for values that are out of range or missing, and for options that are given twice: the first
+// or the last of them would be dropped in silence. A flag that is repeated says nothing new.
 template <class Options>
 Options read_options(std::span<const OptionRow<Options>> rows, std::span<const std::string> arguments,
                      Options parsed = {}) {
+  std::vector<const OptionRow<Options>*> given;
   for (std::size_t k = 0; k < arguments.size(); ++k) {
     const OptionRow<Options>* chosen = nullptr;
     for (const auto& row : rows)
@@ -106,6 +110,9 @@ Options read_options(std::span<const OptionRow<Options>> rows, std::span<const s
     if (chosen == nullptr) throw OptionError("\"" + arguments[k] + "\" is unknown; see --help");
     const bool takes_value = *chosen->form != '\0';
     if (takes_value && k + 1 == arguments.size()) throw OptionError(arguments[k] + " needs a value");
+    if (takes_value && !chosen->repeats && std::find(given.begin(), given.end(), chosen) != given.end())
+      throw OptionError(arguments[k] + " is given twice; give it once");
+    given.push_back(chosen);
     try {
       chosen->read(parsed, takes_value ? arguments[++k] : "");
     } catch (const OptionError& error) { throw OptionError(std::string(chosen->name) + " " + error.what()); }
