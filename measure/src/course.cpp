@@ -8,30 +8,29 @@
 namespace banyan::measure {
 namespace {
 
-using Row = Course::Row;
-
-constexpr Column<Row> table[] = {
-    column<&Row::robots>("robots", "robots at the start"),
-    column<&Row::ticks>("ticks", "simulated ticks"),
-    quantity<&Row::time_s>("time_s", "simulated time", "simulated time (s)"),
-    column<&Row::complete>("complete", "every active target held by a living worker at once, and the tree in one piece",
-                           "complete missions (share)"),
-    quantity<&Row::completion_time_s>("completion_time_s", "when it was complete; empty if never",
-                                      "completion time (s)"),
-    quantity<&Row::time_limit_s>("time_limit_s", "the run's limit", "time limit (s)"),
-    ratio<&Row::normalized_time>("normalized_time", "completion time / limit, 1 if never complete",
-                                 "completion time / limit"),
-    quantity<&Row::time_bound_s>("time_bound_s", "no completion can be earlier",
-                                 "lower bound of the completion time (s)"),
-    ratio<&Row::time_ratio>("time_ratio", "completion time / time_bound_s; empty if never complete",
-                            "completion time / lower bound"),
+constexpr Column<Course::Row> table[] = {
+    column<&Course::Row::robots>("robots", "robots at the start"),
+    column<&Course::Row::ticks>("ticks", "simulated ticks"),
+    quantity<&Course::Row::time_s>("time_s", "simulated time", "simulated time (s)"),
+    column<&Course::Row::complete>("complete",
+                                   "every active target held by a living worker at once, and the tree in one piece",
+                                   "complete missions (share)"),
+    quantity<&Course::Row::completion_time_s>("completion_time_s", "when it was complete; empty if never",
+                                              "completion time (s)"),
+    quantity<&Course::Row::time_limit_s>("time_limit_s", "the run's limit", "time limit (s)"),
+    ratio<&Course::Row::normalized_time>("normalized_time", "completion time / limit, 1 if never complete",
+                                         "completion time / limit"),
+    quantity<&Course::Row::time_bound_s>("time_bound_s", "no completion can be earlier",
+                                         "lower bound of the completion time (s)"),
+    ratio<&Course::Row::time_ratio>("time_ratio", "completion time / time_bound_s; empty if never complete",
+                                    "completion time / lower bound"),
     {"hash", "state hash of the world at the end, hexadecimal", 0,
-     [](const Row& row) -> Cell { return hexadecimal(row.hash); }},
+     [](const Course::Row& row) -> Cell { return hexadecimal(row.hash); }},
 };
 
 }  // namespace
 
-std::span<const Column<Row>> Course::columns() noexcept { return table; }
+std::span<const Column<Course::Row>> Course::columns() noexcept { return table; }
 
 Course::Course(const world::World& start, Row& row) : rounding_s_(world::time_rounding_s(start.scenario())) {
   const world::Scenario& scenario = start.scenario();

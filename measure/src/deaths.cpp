@@ -4,23 +4,22 @@
 namespace banyan::measure {
 namespace {
 
-using Row = Deaths::Row;
-
-constexpr Column<Row> table[] = {
-    column<&Row::deaths>("deaths", "robots that died"),
-    column<&Row::survivors>("survivors", "robots alive at the end"),
-    quantity<&Row::last_death_s>("last_death_s", "when the last of them died; empty if none did", "last death (s)"),
-    column<&Row::recovered>(
+constexpr Column<Deaths::Row> table[] = {
+    column<&Deaths::Row::deaths>("deaths", "robots that died"),
+    column<&Deaths::Row::survivors>("survivors", "robots alive at the end"),
+    quantity<&Deaths::Row::last_death_s>("last_death_s", "when the last of them died; empty if none did",
+                                         "last death (s)"),
+    column<&Deaths::Row::recovered>(
         "recovered",
         "whole again within 20 drives (C / v_max) of the last death, and without a break for 2 or settle_s",
         "recovered networks (share)"),
-    quantity<&Row::recovery_time_s>("recovery_time_s", "from the last death until then; empty if not recovered",
-                                    "recovery time (s)"),
+    quantity<&Deaths::Row::recovery_time_s>("recovery_time_s", "from the last death until then; empty if not recovered",
+                                            "recovery time (s)"),
 };
 
 }  // namespace
 
-std::span<const Column<Row>> Deaths::columns() noexcept { return table; }
+std::span<const Column<Deaths::Row>> Deaths::columns() noexcept { return table; }
 
 Deaths::Deaths(const world::World& start, Row& /*row*/)
     : recovery_(start.scenario().tick_s, world::drive_s(start.scenario()),

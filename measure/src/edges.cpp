@@ -9,32 +9,30 @@
 namespace banyan::measure {
 namespace {
 
-using Row = Edges::Row;
-
-constexpr Column<Row> table[] = {
-    column<&Row::broken_ticks>("broken_ticks", "ticks with a broken tree edge", "ticks with a broken edge"),
-    column<&Row::broken_ticks_by_distance>("broken_ticks_by_distance", "with an edge of C or longer",
-                                           "ticks with an edge too long"),
-    column<&Row::broken_ticks_by_occlusion>(
+constexpr Column<Edges::Row> table[] = {
+    column<&Edges::Row::broken_ticks>("broken_ticks", "ticks with a broken tree edge", "ticks with a broken edge"),
+    column<&Edges::Row::broken_ticks_by_distance>("broken_ticks_by_distance", "with an edge of C or longer",
+                                                  "ticks with an edge too long"),
+    column<&Edges::Row::broken_ticks_by_occlusion>(
         "broken_ticks_by_occlusion", "with an edge in range but without line of sight", "ticks with a hidden edge"),
-    column<&Row::broken_ticks_by_death>("broken_ticks_by_death", "with an edge to a dead robot",
-                                        "ticks with an edge to a dead robot"),
-    ratio<&Row::disconnected_time_ratio>("disconnected_time_ratio", "broken_ticks / ticks",
-                                         "share of time with a broken edge"),
-    ratio<&Row::disconnected_time_ratio_by_distance>("disconnected_time_ratio_by_distance", "the same by distance",
-                                                     "share of time with an edge too long"),
-    ratio<&Row::disconnected_time_ratio_by_occlusion>("disconnected_time_ratio_by_occlusion", "the same by occlusion",
-                                                      "share of time with a hidden edge"),
-    quantity<&Row::liveness_period_s>("liveness_period_s", "I: a neighbour not heard for longer counts as gone"),
-    column<&Row::broken_ticks_after_silence>("broken_ticks_after_silence",
-                                             "with an edge broken for longer than liveness_period_s without a break"),
-    ratio<&Row::disconnected_time_ratio_after_silence>("disconnected_time_ratio_after_silence",
-                                                       "broken_ticks_after_silence / ticks"),
+    column<&Edges::Row::broken_ticks_by_death>("broken_ticks_by_death", "with an edge to a dead robot",
+                                               "ticks with an edge to a dead robot"),
+    ratio<&Edges::Row::disconnected_time_ratio>("disconnected_time_ratio", "broken_ticks / ticks",
+                                                "share of time with a broken edge"),
+    ratio<&Edges::Row::disconnected_time_ratio_by_distance>(
+        "disconnected_time_ratio_by_distance", "the same by distance", "share of time with an edge too long"),
+    ratio<&Edges::Row::disconnected_time_ratio_by_occlusion>(
+        "disconnected_time_ratio_by_occlusion", "the same by occlusion", "share of time with a hidden edge"),
+    quantity<&Edges::Row::liveness_period_s>("liveness_period_s", "I: a neighbour not heard for longer counts as gone"),
+    column<&Edges::Row::broken_ticks_after_silence>(
+        "broken_ticks_after_silence", "with an edge broken for longer than liveness_period_s without a break"),
+    ratio<&Edges::Row::disconnected_time_ratio_after_silence>("disconnected_time_ratio_after_silence",
+                                                              "broken_ticks_after_silence / ticks"),
 };
 
 }  // namespace
 
-std::span<const Column<Row>> Edges::columns() noexcept { return table; }
+std::span<const Column<Edges::Row>> Edges::columns() noexcept { return table; }
 
 Edges::Edges(const world::World& start, Row& row) { row.liveness_period_s = liveness_period_s(start); }
 

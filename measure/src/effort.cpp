@@ -6,17 +6,15 @@
 namespace banyan::measure {
 namespace {
 
-using Row = Effort::Row;
-
-constexpr Column<Row> table[] = {
-    column<&Row::decisions>("decisions", "times a living robot has changed its role, parent or served target"),
-    quantity<&Row::driven_m>("driven_m", "the way of a robot, mean over the robots at the start",
-                             "metres driven per robot"),
+constexpr Column<Effort::Row> table[] = {
+    column<&Effort::Row::decisions>("decisions", "times a living robot has changed its role, parent or served target"),
+    quantity<&Effort::Row::driven_m>("driven_m", "the way of a robot, mean over the robots at the start",
+                                     "metres driven per robot"),
 };
 
 }  // namespace
 
-std::span<const Column<Row>> Effort::columns() noexcept { return table; }
+std::span<const Column<Effort::Row>> Effort::columns() noexcept { return table; }
 
 Effort::Effort(const world::World& start) : position_(start.positions().begin(), start.positions().end()) {
   choice_.reserve(start.size());

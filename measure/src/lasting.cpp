@@ -9,24 +9,22 @@
 namespace banyan::measure {
 namespace {
 
-using Row = Lasting::Row;
-
-constexpr Column<Row> table[] = {
-    quantity<&Row::least_charge>(
+constexpr Column<Lasting::Row> table[] = {
+    quantity<&Lasting::Row::least_charge>(
         "least_charge", "of any living robot at any time, as a share of a full battery; empty without batteries"),
-    quantity<&Row::mean_charge>("mean_charge", "of the living at the end; empty without batteries"),
-    column<&Row::swaps>("swaps", "robots of the tree with little charge that were relieved"),
-    column<&Row::broken_swaps>("broken_swaps", "of these, with a broken edge to either robot meanwhile"),
-    column<&Row::trips>("trips", "of spares to charging places, until they were charged or died"),
-    column<&Row::trips_arrived>("trips_arrived", "of these, those that ended in a slot"),
-    column<&Row::emptied>("emptied", "robots that died for want of charge"),
-    quantity<&Row::lasts_s>(
+    quantity<&Lasting::Row::mean_charge>("mean_charge", "of the living at the end; empty without batteries"),
+    column<&Lasting::Row::swaps>("swaps", "robots of the tree with little charge that were relieved"),
+    column<&Lasting::Row::broken_swaps>("broken_swaps", "of these, with a broken edge to either robot meanwhile"),
+    column<&Lasting::Row::trips>("trips", "of spares to charging places, until they were charged or died"),
+    column<&Lasting::Row::trips_arrived>("trips_arrived", "of these, those that ended in a slot"),
+    column<&Lasting::Row::emptied>("emptied", "robots that died for want of charge"),
+    quantity<&Lasting::Row::lasts_s>(
         "lasts_s", "the charge is used up so long after the end at most; empty if it is not, or without batteries"),
 };
 
 }  // namespace
 
-std::span<const Column<Row>> Lasting::columns() noexcept { return table; }
+std::span<const Column<Lasting::Row>> Lasting::columns() noexcept { return table; }
 
 void Lasting::observe(const Moment& now, Row& row) {
   observe(now.world);

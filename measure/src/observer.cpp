@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "watch.hpp"
+#include "tick_watch.hpp"
 
 namespace banyan::measure {
 namespace {
@@ -22,7 +22,7 @@ struct Observer::Impl {
         metrics(begun(start, run, static_cast<Metrics*>(nullptr))),
         pending_kills(start.pending_kills()) {}
 
-  Watch watch;
+  TickWatch watch;
   Tick tick;
   Run run;
   Metrics metrics;

@@ -11,33 +11,33 @@
 namespace banyan::measure {
 namespace {
 
-using Row = Oracle::Row;
-
 // What the oracle says, if it was asked.
-template <auto field> Cell if_asked(const Row& row) { return row.oracle_robots > 0 ? cell_of<field>(row) : Cell{}; }
+template <auto field> Cell if_asked(const Oracle::Row& row) {
+  return row.oracle_robots > 0 ? cell_of<field>(row) : Cell{};
+}
 
-constexpr Column<Row> table[] = {
-    column<&Row::robots_bound>(
+constexpr Column<Oracle::Row> table[] = {
+    column<&Oracle::Row::robots_bound>(
         "robots_bound", "no fewer committed robots, a worker for each target among them, can connect the targets",
         "lower bound of the robots in the tree"),
     {"oracle_robots", "workers, and the fewest relays found for edges of 0.95 C; empty above 1,000 targets", 0,
-     if_asked<&Row::oracle_robots>, "robots of the oracle"},
-    {"oracle_exact", "no such tree has fewer relays", 0, if_asked<&Row::oracle_exact>,
+     if_asked<&Oracle::Row::oracle_robots>, "robots of the oracle"},
+    {"oracle_exact", "no such tree has fewer relays", 0, if_asked<&Oracle::Row::oracle_exact>,
      "oracle known to be best (share)"},
     {"oracle_targets", "targets at the start that the oracle holds with the robots there are", 0,
-     if_asked<&Row::oracle_targets>},
-    quantity<&Row::oracle_time_s>(
+     if_asked<&Oracle::Row::oracle_targets>},
+    quantity<&Oracle::Row::oracle_time_s>(
         "oracle_time_s",
         "when straight drives can be over, the oracle's relays placed; empty if robots are too few or too many",
         "time of the oracle (s)"),
-    quantity<&Row::steiner_length_m>("steiner_length_m",
-                                     "length of a shortest network of the targets, certified from below",
-                                     "shortest network (m)"),
-    quantity<&Row::star_length_m>("star_length_m",
-                                  "length of the shortest star of the targets, from their geometric median",
-                                  "shortest star (m)"),
-    column<&Row::survivors_suffice>("survivors_suffice", "as many as the bound for the targets active at the end",
-                                    "enough survivors (share)"),
+    quantity<&Oracle::Row::steiner_length_m>("steiner_length_m",
+                                             "length of a shortest network of the targets, certified from below",
+                                             "shortest network (m)"),
+    quantity<&Oracle::Row::star_length_m>("star_length_m",
+                                          "length of the shortest star of the targets, from their geometric median",
+                                          "shortest star (m)"),
+    column<&Oracle::Row::survivors_suffice>(
+        "survivors_suffice", "as many as the bound for the targets active at the end", "enough survivors (share)"),
 };
 
 std::vector<world::Vec2> active_positions(const world::World& world) {
@@ -58,7 +58,7 @@ std::vector<world::Vec2> unsent_positions(const world::World& world) {
 
 }  // namespace
 
-std::span<const Column<Row>> Oracle::columns() noexcept { return table; }
+std::span<const Column<Oracle::Row>> Oracle::columns() noexcept { return table; }
 
 Oracle::Oracle(const world::World& start, Row& row)
     : range_m_(start.scenario().radio.range_m),

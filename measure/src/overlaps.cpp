@@ -6,11 +6,9 @@
 namespace banyan::measure {
 namespace {
 
-using Row = Overlaps::Row;
-
-constexpr Column<Row> table[] = {
+constexpr Column<Overlaps::Row> table[] = {
     {"overlap_ticks", "in which bodies of living robots overlap; empty unless robot.body is linear", 0,
-     [](const Row& row) -> Cell {
+     [](const Overlaps::Row& row) -> Cell {
        return row.overlap_ticks < 0 ? Cell{} : Cell{static_cast<std::uint64_t>(row.overlap_ticks)};
      },
      "ticks with bodies that overlap"},
@@ -18,7 +16,7 @@ constexpr Column<Row> table[] = {
 
 }  // namespace
 
-std::span<const Column<Row>> Overlaps::columns() noexcept { return table; }
+std::span<const Column<Overlaps::Row>> Overlaps::columns() noexcept { return table; }
 
 Overlaps::Overlaps(const world::World& world)
     : reach_m_{2.0 * world.scenario().robot.radius_m},

@@ -9,20 +9,19 @@
 namespace banyan::measure {
 namespace {
 
-using Row = Redundancy::Row;
-
-constexpr Column<Row> table[] = {
-    column<&Row::link_redundancy>("link_redundancy", "mission.link_redundancy, k"),
-    column<&Row::companions>("companions", "spares that stand beside a robot of the tree at the end"),
-    ratio<&Row::redundant_time_ratio>(
+constexpr Column<Redundancy::Row> table[] = {
+    column<&Redundancy::Row::link_redundancy>("link_redundancy", "mission.link_redundancy, k"),
+    column<&Redundancy::Row::companions>("companions", "spares that stand beside a robot of the tree at the end"),
+    ratio<&Redundancy::Row::redundant_time_ratio>(
         "redundant_time_ratio",
         "from a drive (C / v_max) after completion on, share of ticks with k disjoint paths; empty if k is 1",
         "time with k disjoint paths (share)"),
-    column<&Row::severed_ticks>("severed_ticks", "of these, with living workers or the root cut off from each other"),
-    quantity<&Row::restored_s>("restored_s",
-                               "from the last death until there were k disjoint paths; empty if there never were"),
-    column<&Row::redundant_targets>("redundant_targets",
-                                    "active targets with k disjoint paths to the root at the end; 0 if k is 1"),
+    column<&Redundancy::Row::severed_ticks>("severed_ticks",
+                                            "of these, with living workers or the root cut off from each other"),
+    quantity<&Redundancy::Row::restored_s>(
+        "restored_s", "from the last death until there were k disjoint paths; empty if there never were"),
+    column<&Redundancy::Row::redundant_targets>(
+        "redundant_targets", "active targets with k disjoint paths to the root at the end; 0 if k is 1"),
 };
 
 constexpr std::uint32_t not_there = UINT32_MAX;
@@ -42,7 +41,7 @@ std::uint32_t count_companions(const world::World& world) noexcept {
   return count;
 }
 
-std::span<const Column<Row>> Redundancy::columns() noexcept { return table; }
+std::span<const Column<Redundancy::Row>> Redundancy::columns() noexcept { return table; }
 
 Redundancy::Redundancy(const world::World& start, Row& row) : Redundancy(start) { row.link_redundancy = wanted_; }
 

@@ -6,16 +6,15 @@
 namespace banyan::measure {
 namespace {
 
-using Row = Roots::Row;
-
-constexpr Column<Row> table[] = {
-    column<&Row::two_roots_ticks>("two_roots_ticks", "ticks with more than one living root", "ticks with two roots"),
-    quantity<&Row::longest_two_roots_s>("longest_two_roots_s", "the longest time of that without a break",
-                                        "longest time with two roots (s)"),
-    column<&Row::epochs>("epochs", "the highest epoch reached"),
-    quantity<&Row::start_phase_ticks>("start_phase_ticks", "mean length of START", "phase START (ticks)"),
-    quantity<&Row::select_phase_ticks>("select_phase_ticks", "mean length of SELECT PARENT",
-                                       "phase SELECT PARENT (ticks)"),
+constexpr Column<Roots::Row> table[] = {
+    column<&Roots::Row::two_roots_ticks>("two_roots_ticks", "ticks with more than one living root",
+                                         "ticks with two roots"),
+    quantity<&Roots::Row::longest_two_roots_s>("longest_two_roots_s", "the longest time of that without a break",
+                                               "longest time with two roots (s)"),
+    column<&Roots::Row::epochs>("epochs", "the highest epoch reached"),
+    quantity<&Roots::Row::start_phase_ticks>("start_phase_ticks", "mean length of START", "phase START (ticks)"),
+    quantity<&Roots::Row::select_phase_ticks>("select_phase_ticks", "mean length of SELECT PARENT",
+                                              "phase SELECT PARENT (ticks)"),
 };
 
 // The newest token decides which robot is the root; null if none lives.
@@ -31,7 +30,7 @@ const Report* newest_root(const world::World& world) {
 
 }  // namespace
 
-std::span<const Column<Row>> Roots::columns() noexcept { return table; }
+std::span<const Column<Roots::Row>> Roots::columns() noexcept { return table; }
 
 void Roots::observe(const Moment& now, Row& row) {
   streak_ = now.tick.roots > 1 ? streak_ + 1 : 0;

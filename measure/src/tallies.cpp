@@ -6,21 +6,19 @@
 namespace banyan::measure {
 namespace {
 
-using Row = Tallies::Row;
-
-constexpr Column<Row> table[] = {
-    column<&Row::insertions>("insertions", "spares inserted into edges"),
-    column<&Row::handovers>("handovers", "times the root role was handed over"),
-    column<&Row::repairs>("repairs", "lost parents replaced and orphans re-attached"),
-    column<&Row::elections>("elections", "times a robot made itself root because the root had fallen silent"),
-    column<&Row::replacements>("replacements", "times a robot took over the target of a silent worker"),
-    quantity<&Row::bytes_per_robot_s>("bytes_per_robot_s", "broadcast", "bytes per robot and second"),
-    column<&Row::messages>("messages", "broadcast by all robots"),
+constexpr Column<Tallies::Row> table[] = {
+    column<&Tallies::Row::insertions>("insertions", "spares inserted into edges"),
+    column<&Tallies::Row::handovers>("handovers", "times the root role was handed over"),
+    column<&Tallies::Row::repairs>("repairs", "lost parents replaced and orphans re-attached"),
+    column<&Tallies::Row::elections>("elections", "times a robot made itself root because the root had fallen silent"),
+    column<&Tallies::Row::replacements>("replacements", "times a robot took over the target of a silent worker"),
+    quantity<&Tallies::Row::bytes_per_robot_s>("bytes_per_robot_s", "broadcast", "bytes per robot and second"),
+    column<&Tallies::Row::messages>("messages", "broadcast by all robots"),
 };
 
 }  // namespace
 
-std::span<const Column<Row>> Tallies::columns() noexcept { return table; }
+std::span<const Column<Tallies::Row>> Tallies::columns() noexcept { return table; }
 
 void Tallies::sum_up(const Moment& end, Row& row) const {
   row = {};

@@ -9,19 +9,18 @@
 namespace banyan::measure {
 namespace {
 
-using Row = TreeSize::Row;
-
-constexpr Column<Row> table[] = {
-    column<&Row::committed>("committed", "robots in the tree at the end", "robots in the tree at the end"),
-    quantity<&Row::mean_committed>("mean_committed", "mean over ticks", "robots in the tree, mean over time"),
-    ratio<&Row::committed_ratio>("committed_ratio", "committed / robots_bound", "robots in the tree / lower bound"),
-    ratio<&Row::oracle_ratio>("oracle_ratio", "committed / oracle_robots", "robots in the tree / oracle's"),
-    ratio<&Row::deployment_ratio>("deployment_ratio",
-                                  "most robots in the tree in a tick up to completion / robots_bound",
-                                  "most in the tree, deploying / lower bound"),
-    quantity<&Row::network_length_m>("network_length_m",
-                                     "edges from living robots of the tree to their living parents, at the end",
-                                     "length of the tree (m)"),
+constexpr Column<TreeSize::Row> table[] = {
+    column<&TreeSize::Row::committed>("committed", "robots in the tree at the end", "robots in the tree at the end"),
+    quantity<&TreeSize::Row::mean_committed>("mean_committed", "mean over ticks", "robots in the tree, mean over time"),
+    ratio<&TreeSize::Row::committed_ratio>("committed_ratio", "committed / robots_bound",
+                                           "robots in the tree / lower bound"),
+    ratio<&TreeSize::Row::oracle_ratio>("oracle_ratio", "committed / oracle_robots", "robots in the tree / oracle's"),
+    ratio<&TreeSize::Row::deployment_ratio>("deployment_ratio",
+                                            "most robots in the tree in a tick up to completion / robots_bound",
+                                            "most in the tree, deploying / lower bound"),
+    quantity<&TreeSize::Row::network_length_m>(
+        "network_length_m", "edges from living robots of the tree to their living parents, at the end",
+        "length of the tree (m)"),
 };
 
 // Edges from the living robots of the tree to their living parents, in a reconstruction to the old ones, and the
@@ -42,7 +41,7 @@ double network_length_m(const world::World& world) {
 
 }  // namespace
 
-std::span<const Column<Row>> TreeSize::columns() noexcept { return table; }
+std::span<const Column<TreeSize::Row>> TreeSize::columns() noexcept { return table; }
 
 void TreeSize::observe(const Moment& now, Row& row) {
   row.committed = now.tick.committed;

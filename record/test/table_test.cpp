@@ -106,6 +106,7 @@ TEST(Table, ARowOfAnotherVersionIsNone) {
 TEST(Table, WhatIsNotThereIsEmptyOrNull) {
   RunRow row = sample_row();
   row.run.complete = false;
+  row.run.completion_time_s = -1.0;
   const auto csv = parse_csv(run_csv_header() + "\n" + run_csv_row(row) + "\n");
   const auto json = nlohmann::json::parse(run_json(row, "{}"));
   const auto at = std::find(csv[0].begin(), csv[0].end(), "completion_time_s") - csv[0].begin();

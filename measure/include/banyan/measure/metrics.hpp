@@ -10,11 +10,11 @@
 #include "banyan/measure/deaths.hpp"
 #include "banyan/measure/edges.hpp"
 #include "banyan/measure/effort.hpp"
-#include "banyan/measure/held.hpp"
+#include "banyan/measure/held_targets.hpp"
 #include "banyan/measure/lasting.hpp"
+#include "banyan/measure/network_parts.hpp"
 #include "banyan/measure/oracle.hpp"
 #include "banyan/measure/overlaps.hpp"
-#include "banyan/measure/parts.hpp"
 #include "banyan/measure/redundancy.hpp"
 #include "banyan/measure/roots.hpp"
 #include "banyan/measure/tallies.hpp"
@@ -23,8 +23,8 @@
 namespace banyan::measure {
 
 // In the order of their columns, and in which they look: whoever reads what another has found comes after it.
-using Metrics = std::tuple<Course, Held, Oracle, TreeSize, Redundancy, Edges, Parts, Roots, Tallies, Effort, Overlaps,
-                           Lasting, Deaths>;
+using Metrics = std::tuple<Course, HeldTargets, Oracle, TreeSize, Redundancy, Edges, NetworkParts, Roots, Tallies,
+                           Effort, Overlaps, Lasting, Deaths>;
 
 template <class> struct RowOf;
 template <class... Metric> struct RowOf<std::tuple<Metric...>> : Metric::Row... {};

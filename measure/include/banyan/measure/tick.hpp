@@ -35,7 +35,7 @@ struct Tick {
   double least_charge = -1.0, mean_charge = -1.0;  // of the living (lasting.hpp); -1: no batteries
 
   [[nodiscard]] bool all_held() const noexcept { return active_targets > 0 && targets_reached == active_targets; }
-  // Held and connected.
+  // HeldTargets and connected.
   [[nodiscard]] bool complete() const noexcept { return all_held() && tree_parts == 1; }
   // Of the active targets, the share that is held; 1 without any.
   [[nodiscard]] double held_share() const noexcept {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/measure/held.hpp"
+#include "banyan/measure/held_targets.hpp"
 
 #include <array>
 #include <cmath>
@@ -12,23 +12,22 @@
 namespace banyan::measure {
 namespace {
 
-using Row = Held::Row;
-
-constexpr Column<Row> table[] = {
-    ratio<&Row::held_time_ratio>("held_time_ratio",
-                                 "from completion on, mean share of the targets that are held; empty if never complete",
-                                 "share of targets held once complete"),
-    ratio<&Row::unheld_time_ratio_by_death>(
+constexpr Column<HeldTargets::Row> table[] = {
+    ratio<&HeldTargets::Row::held_time_ratio>(
+        "held_time_ratio", "from completion on, mean share of the targets that are held; empty if never complete",
+        "share of targets held once complete"),
+    ratio<&HeldTargets::Row::unheld_time_ratio_by_death>(
         "unheld_time_ratio_by_death",
         "of the rest, the part from a worker's death at its target until it is held again; empty if never complete",
         "share of targets not held by workers' deaths"),
-    ratio<&Row::held_ratio>("held_ratio", "share of the active targets that are held at the end"),
-    column<&Row::held_targets>("held_targets",
-                               "active targets held at the end by a worker that the tree joins to a root"),
-    column<&Row::missed_targets>("missed_targets", "the other active targets, by index, each with the reason"),
-    column<&Row::lost_holders>("lost_holders", "workers that died at their targets",
-                               "workers that died at their targets"),
-    quantity<&Row::held_again_s>(
+    ratio<&HeldTargets::Row::held_ratio>("held_ratio", "share of the active targets that are held at the end"),
+    column<&HeldTargets::Row::held_targets>("held_targets",
+                                            "active targets held at the end by a worker that the tree joins to a root"),
+    column<&HeldTargets::Row::missed_targets>("missed_targets",
+                                              "the other active targets, by index, each with the reason"),
+    column<&HeldTargets::Row::lost_holders>("lost_holders", "workers that died at their targets",
+                                            "workers that died at their targets"),
+    quantity<&HeldTargets::Row::held_again_s>(
         "held_again_s",
         "from then until such a target was held again, median; empty if none was lost or half never were",
         "target held again after (s, median)"),
@@ -66,12 +65,12 @@ std::string why_not_held(const world::World& world, const world::Target& target,
 
 }  // namespace
 
-std::span<const Column<Row>> Held::columns() noexcept { return table; }
+std::span<const Column<HeldTargets::Row>> HeldTargets::columns() noexcept { return table; }
 
-Held::Held(const world::World& start, Row& /*row*/)
+HeldTargets::HeldTargets(const world::World& start, Row& /*row*/)
     : tolerance_m_(world::target_tolerance_m(start.scenario())), takeovers_(start.scenario().tick_s) {}
 
-void Held::observe(const Moment& now, Row& row) {
+void HeldTargets::observe(const Moment& now, Row& row) {
   takeovers_.observe(now.holders, now.world.targets(), now.world.alive());
   row.held_ratio = now.tick.held_share();
   if (!now.run.complete) return;
@@ -81,7 +80,7 @@ void Held::observe(const Moment& now, Row& row) {
     waiting_by_death_ += static_cast<double>(takeovers_.waiting()) / static_cast<double>(now.tick.active_targets);
 }
 
-void Held::sum_up(const Moment& end, Row& row) const {
+void HeldTargets::sum_up(const Moment& end, Row& row) const {
   if (ticks_ > 0) {
     row.held_time_ratio = held_sum_ / static_cast<double>(ticks_);
     row.unheld_time_ratio_by_death = waiting_by_death_ / static_cast<double>(ticks_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "watch.hpp"
+#include "tick_watch.hpp"
 
 #include <algorithm>
 #include <array>
@@ -27,14 +27,14 @@ void count_robots(const world::World& world, Tick& tick) {
 
 }  // namespace
 
-Watch::Watch(const world::World& start)
+TickWatch::TickWatch(const world::World& start)
     : range_m_(start.scenario().radio.range_m),
       tolerance_m_(world::target_tolerance_m(start.scenario())),
       silence_(liveness_period_s(start), start.scenario().tick_s),
       tree_parts_(start.size()),
       graph_(start) {}
 
-void Watch::look(const world::World& world, bool exact_fiedler, Tick& tick) {
+void TickWatch::look(const world::World& world, bool exact_fiedler, Tick& tick) {
   tick.tick = world.tick();
   tick.time_s = world.time_s();
   count_robots(world, tick);
@@ -44,7 +44,7 @@ void Watch::look(const world::World& world, bool exact_fiedler, Tick& tick) {
   measure_targets(world, tick);
 }
 
-void Watch::count_edges(const world::World& world, Tick& tick) {
+void TickWatch::count_edges(const world::World& world, Tick& tick) {
   const auto alive = world.alive();
   const auto reports = world.reports();
   const auto positions = world.positions();
@@ -77,7 +77,7 @@ void Watch::count_edges(const world::World& world, Tick& tick) {
 }
 
 // One pass over the robots for all targets, where World::holder takes one for each.
-void Watch::measure_targets(const world::World& world, Tick& tick) {
+void TickWatch::measure_targets(const world::World& world, Tick& tick) {
   const auto targets = world.targets();
   nearest_worker_.assign(targets.size(), std::numeric_limits<double>::infinity());
   holders_.assign(targets.size(), nobody);

@@ -9,7 +9,7 @@
 
 namespace banyan::measure {
 
-class Held {
+class HeldTargets {
  public:
   struct Row {
     double held_time_ratio = -1.0;  // from completion on, mean share of the targets that are held; -1: not complete
@@ -23,7 +23,7 @@ class Held {
   };
   [[nodiscard]] static std::span<const Column<Row>> columns() noexcept;
 
-  Held(const world::World& start, Row& row);
+  HeldTargets(const world::World& start, Row& row);
   void observe(const Moment& now, Row& row);
   void sum_up(const Moment& end, Row& row) const;
 

@@ -6,7 +6,7 @@
 
 namespace banyan::measure {
 
-class Parts {
+class NetworkParts {
  public:
   struct Row {
     std::uint32_t start_parts = 1;  // components at the start, over links of which both ends hear each other
@@ -17,7 +17,7 @@ class Parts {
   };
   [[nodiscard]] static std::span<const Column<Row>> columns() noexcept;
 
-  Parts(const world::World& start, Row& row);
+  NetworkParts(const world::World& start, Row& row);
   void observe(const Moment& now, Row& row);
   void sum_up(const Moment& end, Row& row) const;
 

@@ -13,9 +13,9 @@
 
 namespace banyan::measure {
 
-class Watch {
+class TickWatch {
  public:
-  explicit Watch(const world::World& start);
+  explicit TickWatch(const world::World& start);
 
   // Once per tick, after World::step. Charges and disjoint paths are left to the metrics that know of them.
   void look(const world::World& world, bool exact_fiedler, Tick& tick);
