@@ -36,7 +36,7 @@ std::span<const Column<Edges::Row>> Edges::columns() noexcept { return table; }
 
 Edges::Edges(const world::World& start, Row& row) { row.liveness_period_s = liveness_period_s(start); }
 
-void Edges::observe(const Moment& now, Row& row) const {
+void Edges::observe(const Moment& now, Row& row) {
   const Tick& tick = now.tick;
   const bool broken = tick.broken_by_distance + tick.broken_by_occlusion + tick.broken_by_death > 0;
   row.broken_ticks += broken ? 1 : 0;
@@ -46,7 +46,7 @@ void Edges::observe(const Moment& now, Row& row) const {
   row.broken_ticks_after_silence += tick.broken_after_silence > 0 ? 1 : 0;
 }
 
-void Edges::sum_up(const Moment& end, Row& row) const {
+void Edges::sum_up(const Moment& end, Row& row) {
   const double ticks = std::max(1.0, static_cast<double>(end.run.ticks));
   row.disconnected_time_ratio = static_cast<double>(row.broken_ticks) / ticks;
   row.disconnected_time_ratio_by_distance = static_cast<double>(row.broken_ticks_by_distance) / ticks;

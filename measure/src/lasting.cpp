@@ -43,13 +43,13 @@ void Lasting::sum_up(const Moment& end, Row& row) const {
   row.lasts_s = lasts_s(end.world, end.run.mean_committed);
 }
 
-Lasting::Lasting(const world::World& world)
-    : range_m_(world.scenario().radio.range_m),
-      after_ticks_(static_cast<std::uint32_t>(0.1 * world::drive_s(world.scenario()) / world.scenario().tick_s + 0.5)),
-      courses_(world.charge().size()),
-      touched_(world.charge().size()),
-      relieved_(world.charge().size()) {
-  for (std::size_t i = 0; i < courses_.size(); ++i) courses_[i].level = world.charge()[i];
+Lasting::Lasting(const world::World& start)
+    : range_m_(start.scenario().radio.range_m),
+      after_ticks_(static_cast<std::uint32_t>(0.1 * world::drive_s(start.scenario()) / start.scenario().tick_s + 0.5)),
+      courses_(start.charge().size()),
+      touched_(start.charge().size()),
+      relieved_(start.charge().size()) {
+  for (std::size_t i = 0; i < courses_.size(); ++i) courses_[i].level = start.charge()[i];
 }
 
 void Lasting::mark_broken(const world::World& world) {

@@ -18,10 +18,10 @@ constexpr Column<Overlaps::Row> table[] = {
 
 std::span<const Column<Overlaps::Row>> Overlaps::columns() noexcept { return table; }
 
-Overlaps::Overlaps(const world::World& world)
-    : reach_m_{2.0 * world.scenario().robot.radius_m},
-      ticks_{world.scenario().robot.body == world::BodyModel::linear ? 0 : -1} {
-  if (ticks_ == 0) by_x_.reserve(world.size());
+Overlaps::Overlaps(const world::World& start)
+    : reach_m_{2.0 * start.scenario().robot.radius_m},
+      ticks_{start.scenario().robot.body == world::BodyModel::linear ? 0 : -1} {
+  if (ticks_ == 0) by_x_.reserve(start.size());
 }
 
 void Overlaps::observe(const world::World& world) {

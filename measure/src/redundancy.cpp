@@ -66,9 +66,9 @@ void Redundancy::sum_up(const Moment& end, Row& row) {
   }
 }
 
-Redundancy::Redundancy(const world::World& world)
-    : wanted_(static_cast<std::uint32_t>(world.scenario().mission.link_redundancy)),
-      drive_s_(world::drive_s(world.scenario())) {}
+Redundancy::Redundancy(const world::World& start)
+    : wanted_(static_cast<std::uint32_t>(start.scenario().mission.link_redundancy)),
+      drive_s_(world::drive_s(start.scenario())) {}
 
 void Redundancy::build(const world::World& world) {
   const auto targets = world.targets();

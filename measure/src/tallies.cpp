@@ -20,7 +20,7 @@ constexpr Column<Tallies::Row> table[] = {
 
 std::span<const Column<Tallies::Row>> Tallies::columns() noexcept { return table; }
 
-void Tallies::sum_up(const Moment& end, Row& row) const {
+void Tallies::sum_up(const Moment& end, Row& row) {
   row = {};
   const auto reports = end.world.reports();
   for (std::size_t i = 0; i < reports.size(); ++i) {

@@ -127,8 +127,8 @@ std::size_t check_in_order(FaultList& list, const Scenario& scenario, std::size_
   Sequel sequel{targets + adds_late, targets, targets, {}, scenario.obstacles};
   for (const std::size_t i : order) {
     if (waits(i)) continue;
-    CheckEventFits(list, scenario, end, i, robots,
-                   sequel);  // NOLINT(bugprone-unused-raii): its constructor is the check
+    // Its constructor is the check. NOLINTNEXTLINE(bugprone-unused-raii)
+    CheckEventFits(list, scenario, end, i, robots, sequel);
     follow(sequel, events[i]);
   }
   for (const std::size_t i : order)

@@ -24,7 +24,7 @@ class Course {
 
   Course(const world::World& start, Row& row);
   void observe(const Moment& now, Row& row) const;
-  void sum_up(const Moment& end, Row& row) const;
+  static void sum_up(const Moment& end, Row& row);
 
  private:
   double rounding_s_;

@@ -20,7 +20,7 @@ class Deaths {
 
   Deaths(const world::World& start, Row& row);
   void observe(const Moment& now, Row& row);
-  void sum_up(const Moment& /*end*/, Row& /*row*/) const {}
+  static void sum_up(const Moment& /*end*/, Row& /*row*/) {}
 
   // It is decided whether the swarm has recovered from the deaths so far.
   [[nodiscard]] bool settled() const noexcept { return recovery_.settled(); }

@@ -23,8 +23,8 @@ class Edges {
   [[nodiscard]] static std::span<const Column<Row>> columns() noexcept;
 
   Edges(const world::World& start, Row& row);
-  void observe(const Moment& now, Row& row) const;
-  void sum_up(const Moment& end, Row& row) const;
+  static void observe(const Moment& now, Row& row);
+  static void sum_up(const Moment& end, Row& row);
 };
 
 }  // namespace banyan::measure

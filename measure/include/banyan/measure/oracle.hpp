@@ -24,7 +24,7 @@ class Oracle {
   [[nodiscard]] static std::span<const Column<Row>> columns() noexcept;
 
   Oracle(const world::World& start, Row& row);
-  void observe(const Moment& /*now*/, Row& /*row*/) const {}
+  static void observe(const Moment& /*now*/, Row& /*row*/) {}
   void sum_up(const Moment& end, Row& row);
 
  private:
