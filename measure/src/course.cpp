@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "hexadecimal.hpp"
+#include "banyan/measure/hexadecimal.hpp"
 
 namespace banyan::measure {
 namespace {

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 #include "banyan/controller/core/digest.hpp"
+#include "banyan/measure/hexadecimal.hpp"
 
 namespace banyan::study {
 
@@ -16,12 +16,6 @@ namespace banyan::study {
   return digest.value();
 }
 
-// 16 digits.
-[[nodiscard]] inline std::string hexadecimal(std::uint64_t value) {
-  constexpr std::string_view digits = "0123456789abcdef";
-  std::string text(16, '0');
-  for (std::size_t k = 0; k < 16; ++k) text[15 - k] = digits[(value >> (4 * k)) & 15U];
-  return text;
-}
+using measure::hexadecimal;
 
 }  // namespace banyan::study

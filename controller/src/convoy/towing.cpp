@@ -9,7 +9,6 @@
 #include "banyan/controller/core/edge_frame.hpp"
 #include "banyan/controller/core/search.hpp"
 #include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/healing/tie.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
 #include "banyan/controller/redundancy/companions.hpp"

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/healing/tie.hpp"
 
 namespace banyan {
 namespace {

@@ -3,7 +3,6 @@
 
 #include "banyan/controller/core/search.hpp"
 #include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/healing/tie.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/tree/motion.hpp"
 

@@ -7,7 +7,6 @@
 
 namespace banyan {
 
-// `reach`, C: no label is taken from robots farther away.
 void update_label(TreeRobot& robot) noexcept;
 
 // Length of an edge in the label's unit, 1 / per_range of C; at least 1, so that a label grows along every edge.

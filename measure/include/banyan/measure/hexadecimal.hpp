@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Digests as they appear in files.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,8 @@
 
 namespace banyan::measure {
 
-inline std::string hexadecimal(std::uint64_t value) {
+// 16 digits.
+[[nodiscard]] inline std::string hexadecimal(std::uint64_t value) {
   constexpr std::string_view digits = "0123456789abcdef";
   std::string text(16, '0');
   for (std::size_t k = 0; k < 16; ++k) text[15 - k] = digits[(value >> (4 * k)) & 15];
