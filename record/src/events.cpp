@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "banyan/world/obstacles.hpp"
-#include "sight.hpp"
+#include "seen_bodies.hpp"
 #include "text.hpp"
 
 namespace banyan::record {
@@ -81,44 +80,35 @@ struct BrokenEdge {
 };
 
 // Why robots in range of each other have no line of sight; "" if they have one.
-std::string hidden_by(const Setting& setting, const Frame& frame, std::int32_t i, std::int32_t j) {
-  const RobotFrame& here = frame.robots[static_cast<std::size_t>(i)];
-  const RobotFrame& there = frame.robots[static_cast<std::size_t>(j)];
-  const Vec2 a = here.position;
-  const Vec2 b = there.position;
-  const Vec2 middle = 0.5 * (a + b);
-  const double reach = 0.5 * distance(a, b) + setting.radius_m;
-  for (std::size_t k = 0; k < frame.robots.size(); ++k) {
-    const Vec2 p = frame.robots[k].position;
-    if (std::fabs(p.x - middle.x) > reach || std::fabs(p.y - middle.y) > reach) continue;
-    if (static_cast<std::int32_t>(k) == i || static_cast<std::int32_t>(k) == j) continue;
-    if (hides(setting, frame.robots[k], here, there)) return "hidden by " + robot_name(static_cast<std::int64_t>(k));
-  }
-  for (std::size_t k = 0; k < setting.obstacles.size(); ++k) {
-    if (world::blocks(setting.obstacles[k], a, b)) return "hidden by obstacle " + std::to_string(k);
-  }
-  return "";
+std::string hidden_by(const world::Scene& scene, std::int32_t i, std::int32_t j) {
+  const auto blocker = world::blocker(scene, static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+  if (!blocker) return "";
+  const auto index = static_cast<std::int64_t>(blocker->index);
+  return "hidden by " + (blocker->is_obstacle ? "obstacle " + std::to_string(index) : robot_name(index));
 }
 
-void judge_edge(const Setting& setting, const Frame& frame, std::size_t i, bool old, std::vector<BrokenEdge>& broken) {
+void judge_edge(const world::Scene& scene, const Frame& frame, std::size_t i, bool old,
+                std::vector<BrokenEdge>& broken) {
   const RobotFrame& robot = frame.robots[i];
   const std::int32_t to = old ? robot.old_parent : robot.parent;
   if (!has_robot(frame, to) || !frame.robots[static_cast<std::size_t>(to)].alive) return;
   const double length = distance(robot.position, frame.robots[static_cast<std::size_t>(to)].position);
   BrokenEdge edge{static_cast<std::int32_t>(i), to, old, ""};
-  if (!(length < setting.range_m)) edge.why = metres(length) + " apart, out of range";
-  else if (setting.line_of_sight) edge.why = hidden_by(setting, frame, edge.robot, to);
+  if (!(length < scene.range_m)) edge.why = metres(length) + " apart, out of range";
+  else if (scene.line_of_sight) edge.why = hidden_by(scene, edge.robot, to);
   if (!edge.why.empty()) broken.push_back(std::move(edge));
 }
 
 // O(edges x robots): used only at moments at which an edge has broken.
 std::vector<BrokenEdge> broken_edges(const Setting& setting, const Frame& frame) {
   std::vector<BrokenEdge> broken;
+  const SeenBodies bodies(frame);
+  const world::Scene scene = bodies.scene(setting);
   for (std::size_t i = 0; i < frame.robots.size(); ++i) {
     const RobotFrame& robot = frame.robots[i];
     if (!robot.alive || robot.role == Role::spare) continue;
-    judge_edge(setting, frame, i, false, broken);
-    if (robot.old_parent != robot.parent) judge_edge(setting, frame, i, true, broken);
+    judge_edge(scene, frame, i, false, broken);
+    if (robot.old_parent != robot.parent) judge_edge(scene, frame, i, true, broken);
   }
   return broken;
 }

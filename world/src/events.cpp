@@ -222,14 +222,14 @@ void World::Impl::give_up(std::size_t target) {
 void World::Impl::set_line_of_sight(bool on) {
   line_of_sight = on;
   swarm->set_line_of_sight(on);
-  radio.set_line_of_sight(on);
+  radio.occlude(on, obstacles);
 }
 
 // Nothing if an event that waited for its moment has taken away what this one refers to.
 void World::Impl::change_obstacles(const Action& action) {
   if (!change(obstacles, action)) return;
   bodies->set_obstacles(obstacles);
-  radio.set_obstacles(obstacles);
+  radio.occlude(line_of_sight, obstacles);
   proximity.set_obstacles(obstacles);
 }
 

@@ -196,8 +196,7 @@ void World::Impl::broadcast(Executor& executor) {
 // Who hears whom at the poses of this moment.
 void World::Impl::find_links(Executor& executor) {
   for (std::size_t i = 0; i < raised.size(); ++i) raised[i] = is_raised(scenario, i, poses.heading[i]) ? 1 : 0;
-  if (!raised.empty()) radio.raise(raised);
-  radio.update(poses.position, alive, executor);
+  radio.update(poses.position, alive, raised, executor);
 }
 
 void World::Impl::make_inboxes(const Executor& executor) {

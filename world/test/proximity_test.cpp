@@ -158,7 +158,7 @@ TEST(DeadBodies, AreInTheWayOnlyIfTheyStay) {
       Radio radio(s, 2);
       Executor alone(1);
       std::vector<std::uint8_t> alive{1, 1};
-      radio.update(poses.position, alive, alone);
+      radio.update(poses.position, alive, {}, alone);
       alive[1] = 0;
       if (!stay) bodies->remove(1);
       if (!stay) radio.forget(1);
@@ -166,7 +166,7 @@ TEST(DeadBodies, AreInTheWayOnlyIfTheyStay) {
       std::vector<Odometry> odometry(2);
       for (std::uint64_t t = 0; t < 10; ++t) {
         bodies->step(command, radio.near(), t, poses, odometry);
-        radio.update(poses.position, alive, alone);
+        radio.update(poses.position, alive, {}, alone);
       }
       EXPECT_EQ(poses.position[1] == start.position[1], !stay) << stay;
       EXPECT_EQ(distance(poses.position[0], poses.position[1]) < 2 * s.robot.radius_m - 0.01, !stay);

@@ -11,6 +11,7 @@
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/random.hpp"
+#include "banyan/world/sight.hpp"
 
 namespace banyan::world {
 namespace {
@@ -89,9 +90,11 @@ struct Crowd {
   std::vector<std::uint8_t> alive;
   std::vector<std::uint8_t> raised;  // none: sight is exact
 
-  void show(Radio& radio, Executor& executor) const {
-    if (!raised.empty()) radio.raise(raised);
-    radio.update(positions, alive, executor);
+  void show(Radio& radio, Executor& executor) const { radio.update(positions, alive, raised, executor); }
+  [[nodiscard]] Scene scene() const {
+    const Scenario& s = scenario;
+    return {positions,          alive, raised, s.obstacles, s.radio.range_m, s.robot.radius_m, s.radio.line_of_sight,
+            s.robot.dead_bodies};
   }
 };
 
@@ -255,12 +258,12 @@ class Traffic {
 
   void change_settings(Radio& radio, std::uint64_t tick) {
     Scenario& s = crowd.scenario;
-    if (draw(10, tick) < 0.02) radio.set_line_of_sight(s.radio.line_of_sight = !s.radio.line_of_sight);
+    if (draw(10, tick) < 0.02) radio.occlude(s.radio.line_of_sight = !s.radio.line_of_sight, s.obstacles);
     if (s.obstacles.empty() || draw(11, tick) >= 0.05) return;
     Obstacle& obstacle =
         s.obstacles[static_cast<std::size_t>(draw(12, tick) * static_cast<double>(s.obstacles.size()))];
     obstacle = moved(obstacle, center_of(obstacle) + Vec2{0.3 * draw(13, tick) - 0.15, 0.3 * draw(14, tick) - 0.15});
-    radio.set_obstacles(s.obstacles);
+    radio.occlude(s.radio.line_of_sight, s.obstacles);
   }
 
   Crowd crowd;
@@ -279,7 +282,38 @@ void expect_same(const Radio& radio, const Radio& other, std::size_t robots) {
   ASSERT_TRUE(std::ranges::equal(radio.near(), other.near()));
 }
 
-// Against one that sees each tick as its first, and now and then against plain geometry.
+// To the bit, on every edge.
+void expect_exact(const Crowd& c, const Radio& radio) {
+  const Scene scene = c.scene();
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> linked, blocked, found;
+  for (std::uint32_t i = 0; i < c.positions.size(); ++i) {
+    for (const std::uint32_t j : radio.links(i))
+      if (i < j) found.emplace_back(i, j);
+    for (std::uint32_t j = i + 1; j < c.positions.size(); ++j)
+      if (in_range(scene, i, j)) (hears(scene, i, j) ? linked : blocked).emplace_back(i, j);
+  }
+  ASSERT_EQ(found, linked);
+  ASSERT_EQ(radio.blocked(), blocked);
+}
+
+// Robots on a lattice: many lines of sight that just touch a body or pass an obstacle's corner, distances of just C.
+TEST(Radio, IsItsSpecificationOnEveryEdge) {
+  Executor executor(1);
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Crowd c = crowd(seed);
+    const auto snap = [&](Vec2 p) { return Vec2{0.25 * std::round(4.0 * p.x), 0.25 * std::round(4.0 * p.y)}; };
+    for (Vec2& p : c.positions) p = snap(p);
+    for (Obstacle& obstacle : c.scenario.obstacles) obstacle = moved(obstacle, snap(center_of(obstacle)));
+    c.scenario.radio.range_m = 0.5 + 0.25 * static_cast<double>(seed % 7);
+    c.scenario.robot.radius_m = seed % 2 == 0 ? 0.0625 : 0.1;
+    c.scenario.robot.dead_bodies = seed % 3 != 0;
+    Radio radio(c.scenario, c.positions.size());
+    c.show(radio, executor);
+    ASSERT_NO_FATAL_FAILURE(expect_exact(c, radio)) << "seed " << seed;
+  }
+}
+
+// Against one that sees each tick as its first, against its specification and now and then plain geometry.
 TEST(Radio, WhatItKeepsFromTickToTickIsWhatItWouldFindAnew) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Traffic traffic(seed);
@@ -293,6 +327,7 @@ TEST(Radio, WhatItKeepsFromTickToTickIsWhatItWouldFindAnew) {
       Radio anew(c.scenario, robots);
       c.show(anew, alone);
       ASSERT_NO_FATAL_FAILURE(expect_same(radio, anew, robots)) << "seed " << seed << ", tick " << tick;
+      if (tick % 10 == 9) { ASSERT_NO_FATAL_FAILURE(expect_exact(c, radio)) << "seed " << seed << ", tick " << tick; }
       if (tick % 50 == 49 && c.scenario.robot.dead_bodies) { ASSERT_NO_FATAL_FAILURE(compare(c, radio, seed)); }
       traffic.change_settings(radio, tick);
       for (std::size_t i = 0; i < robots; ++i)
@@ -316,9 +351,9 @@ TEST(Radio, WhoHasBeenAwayForLongIsSeenAgain) {
     Radio radio(scenario, positions.size());
     const int steps = static_cast<int>(away_m / 0.02);
     for (int t = 0; t < 2 * steps + 50; ++t) {
-      radio.update(positions, alive, executor);
+      radio.update(positions, alive, {}, executor);
       Radio anew(scenario, positions.size());
-      anew.update(positions, alive, executor);
+      anew.update(positions, alive, {}, executor);
       ASSERT_NO_FATAL_FAILURE(expect_same(radio, anew, positions.size())) << away_m << " m, tick " << t;
       positions[2].x += t < steps ? 0.02 : -0.02;
     }
@@ -331,7 +366,7 @@ TEST(Radio, NearPairsAreAllPairsThatCouldTouch) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const Crowd c = crowd(seed);
     Radio radio(c.scenario, c.positions.size());
-    radio.update(c.positions, c.alive, executor);
+    radio.update(c.positions, c.alive, {}, executor);
     const double near_m = 2 * c.scenario.robot.radius_m + 4 * c.scenario.robot.wheel_limit_m_s * c.scenario.tick_s +
                           c.scenario.robot.radius_m / 7;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> expected;
@@ -348,9 +383,8 @@ class Straight : public testing::Test {
               const std::vector<std::uint8_t>& raised = {}) {
     alive.resize(positions.size(), 1);
     Radio radio(scenario, positions.size());
-    if (!raised.empty()) radio.raise(raised);
     Executor executor(1);
-    radio.update(positions, alive, executor);
+    radio.update(positions, alive, raised, executor);
     const auto row = radio.links(0);
     return std::binary_search(row.begin(), row.end(), 1U);
   }
@@ -403,7 +437,7 @@ TEST(Radio, AWideAndThinSwarmTakesNoMoreMemoryThanADenseOne) {
   const std::vector<std::uint8_t> alive(positions.size(), 1);
   Radio radio(scenario, positions.size());
   Executor executor(1);
-  radio.update(positions, alive, executor);
+  radio.update(positions, alive, {}, executor);
   for (std::size_t i = 0; i < positions.size(); ++i) EXPECT_TRUE(radio.links(i).empty());
   EXPECT_LT(radio.memory_bytes(), 400U * 1000U);
 }

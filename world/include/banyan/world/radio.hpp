@@ -1,216 +1,48 @@
 // SPDX-License-Identifier: MIT
-// Which robots can hear each other: links by range and exact line of sight, all pairs, every tick.
+// Which robots can hear each other: links by range and exact occlusion, all pairs, every tick.
 #pragma once
 
 #include <cstdint>
-#include <cstring>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "banyan/world/bodies.hpp"
-#include "banyan/world/ragged_array.hpp"
 #include "banyan/world/scenario.hpp"
 #include "banyan/world/threads.hpp"
 
 namespace banyan::world {
 
-// A link i-j exists while both live, |p_i - p_j| < C, and - with line of sight - the open segment
-// between the centres meets no obstacle and no body but their own: |p_k - segment| >= radius for
-// every other robot k beside the segment, dead ones included unless they vanish. Exactly symmetric: each pair is
-// decided once. With radio.sight_leak a raised antenna looks over bodies: a body is not in the way if the end nearer to
-// it, along the segment, is raised. Nothing looks over an obstacle.
+// The links of a swarm: those pairs for which `hears` of sight.hpp says so, to the bit, but found in O(N + pairs in
+// range). Exactly symmetric: each pair is decided once.
 class Radio {
  public:
   Radio(const Scenario& scenario, std::size_t robots);
+  Radio(const Radio& other);
+  Radio& operator=(const Radio&) = delete;
+  ~Radio();
 
-  // Finds links, blocked pairs and near pairs at the given poses. O(N + pairs in range) time, but what
-  // no motion can have changed is not looked at again: every verdict comes with the distance that robots
-  // may move before it could change. The result is that of deciding every pair anew, to the bit.
-  void update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Executor& executor);
-
-  // From the next update on these block, and blocking counts or not.
-  void set_obstacles(std::span<const Obstacle> obstacles) {
-    obstacles_.assign(obstacles.begin(), obstacles.end());
-    all_anew_ = true;
-  }
-  void set_line_of_sight(bool on) noexcept {
-    line_of_sight_ = on;
-    all_anew_ = true;
-  }
-
-  // From the next update on the antennas of these robots are raised, 1, or not, 0. Only with radio.sight_leak.
-  void raise(std::span<const std::uint8_t> raised);
-
+  // Finds links, blocked pairs and near pairs at these poses, one of each per robot. `raised`: 1 where an antenna is,
+  // with radio.sight_leak only, and else empty. What no motion can have changed is not looked at again.
+  void update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive,
+              std::span<const std::uint8_t> raised, Executor& executor);
+  // From the next update on whether bodies and these obstacles block.
+  void occlude(bool on, std::span<const Obstacle> obstacles);
   // Robot i has vanished since the last update: it is near no other robot.
   void forget(std::uint32_t i);
 
-  [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept { return links_.of(i); }
-  [[nodiscard]] NearPairs near() const noexcept { return near_; }
-  // In range, but not linked for want of sight. Listed when asked for: a tick has no use for them.
+  // Of robot i, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept;
+  // Pairs whose bodies could touch in the next tick, ascending.
+  [[nodiscard]] NearPairs near() const noexcept;
+  // In range, but occluded. Listed when asked for: a tick has no use for them.
   [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> blocked() const;
   [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
-  // Whether a disc of `radius` at `k` blocks the segment from the origin to `d`: nearer than radius
-  // to its interior. The one predicate that decides, here and in the brute-force test.
-  [[nodiscard]] static bool disc_blocks(Vec2 k, Vec2 d, double d2, double radius) noexcept {
-    const double along = dot(k, d);
-    if (along <= 0.0 || along >= d2) return false;
-    const double across = cross(k, d);
-    return across * across < radius * radius * d2;
-  }
-
  private:
-  using Couple = std::pair<std::uint32_t, std::uint32_t>;
-  // A way in small units, rounded up. It wraps: only differences count.
-  using Way = std::uint32_t;
-  static constexpr Way units_per_reach = 1U << 20;
-  static constexpr std::uint32_t last_index = (1U << 28) - 1;
-  static constexpr std::size_t chunk = 8;  // of neighbours that are looked at together
-  static constexpr std::size_t lanes = 4;  // of pairs that are tested together
-
-  // What was found out about robot i and another, j > i.
-  struct Pair {
-    std::uint32_t other : 28 = 0;
-    // Neither linked nor blocked: out of range, or dead. Both: bodies are in the way, but antennas look over them.
-    std::uint32_t linked : 1 = 0, blocked : 1 = 0, near : 1 = 0;
-    std::uint32_t lively : 1 = 0;  // which of two clocks `until` is by
-    std::uint32_t witness = 0;     // the body in the way, or if none is the one that is nearest to it; or nobody_
-    Way until = 0;                 // by the clock of all around: until then no other body changes anything
-  };
-  // Its first four bytes: the other and the flags.
-  [[nodiscard]] static std::int32_t word_of(const Pair& pair) noexcept {
-    std::int32_t word = 0;
-    std::memcpy(&word, &pair, sizeof word);
-    return word;
-  }
-  // A position in single precision.
-  struct Place {
-    float x, y;
-  };
-  using FourWhole = std::int32_t __attribute__((vector_size(16)));
-  // How a pair has changed: 1 linked or near, -1 no longer, 0 unchanged.
-  struct Change {
-    Couple couple;
-    int link, near;
-  };
-  // The row of a robot: all robots within reach when it was written.
-  struct Row {
-    bool known = false;
-    Way written = 0;  // by the clock of the row
-    Way seen = 0;     // by its fast clock: when its pairs were looked at last
-  };
-  struct Scratch {                     // one per thread
-    std::vector<std::uint32_t> index;  // all robots within reach of a robot, ascending; the first `size` are valid
-    std::size_t size = 0;
-    std::vector<Pair> old;                   // a row before it was written anew
-    std::vector<float> x, y;                 // from a robot to each of its row, world frame, padded to whole chunks
-    std::vector<const Obstacle*> obstacles;  // near it
-    std::vector<Change> changes;             // in this update
-    bool rebuild = false;                    // they are not all that has changed
-    bool no_room = false;                    // some row needs more
-  };
-  // A robot and its row, while it is looked at.
-  struct Site {
-    std::size_t i;
-    Vec2 here;
-    std::span<const Vec2> positions;
-    std::span<const std::uint32_t> lower;
-    std::span<Pair> pairs;
-    Scratch& s;
-    bool looked = false;  // s.x, s.y and s.obstacles are those of this robot
-  };
-  // Whether a body is in the way, and which. If none is: the nearest one, and how far all others are from being in the
-  // way.
-  struct View {
-    bool blocked;
-    std::uint32_t witness;
-    float others_m;
-  };
-  // In single precision; and so near to a limit a doubt is left.
-  struct Limits {
-    float range_m2, near_m2, radius_m2;
-    float area_m2;  // of a product of two lengths
-    float edge_m4;  // of the square of one, where a body only just blocks
-  };
-
-  [[nodiscard]] Way clock(std::size_t i) const noexcept { return path_[i] + around_[i]; }
-  // Of all around robot i and another: either bounds how far a body and the line of sight approach each other.
-  [[nodiscard]] Way clock_of_all(std::size_t i, const Pair& pair) const noexcept {
-    return around_[i] + (pair.lively != 0 ? around_[i] : path_[i] + path_[pair.other]);
-  }
-  // None, or less: the clock has run out.
-  [[nodiscard]] std::int32_t way_left(std::size_t i, const Pair& pair) const noexcept {
-    return static_cast<std::int32_t>(pair.until - clock_of_all(i, pair));
-  }
-  // So far that clocks may go on: they are up to one unit too slow per robot, and rounding is far less.
-  [[nodiscard]] Way way(double m) const noexcept { return static_cast<Way>(std::max(0.0, m * units_per_m_ - 4.0)); }
-  [[nodiscard]] Way fast_clock(std::size_t i) const noexcept { return path_[i] + 2 * around_[i]; }
-
-  [[nodiscard]] bool follow(std::span<const Vec2> positions, std::span<const std::uint8_t> alive);
-  void lay_grid(std::span<const Vec2> positions);
-  void note_places(std::span<const Vec2> positions, Vec2 low, Vec2 high);
-  void spread_motion();
-  void sort_into_cells();
-  void gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) const;
-  [[nodiscard]] bool write_row(std::size_t i, std::span<const Vec2> positions, Scratch& s);
-  void make_room(std::span<const Vec2> positions);
-  void refresh(std::size_t i, std::span<const Vec2> positions, Scratch& s);
-  static void note(std::size_t i, const Pair& before, const Pair& now, Scratch& s);
-  void decide(Site& site, Pair& pair) const;
-  [[nodiscard]] FourWhole doubtful(const Site& site, std::size_t begin) const noexcept;
-  [[nodiscard]] bool still_holds(const Site& site, const Pair& pair) const noexcept;
-  [[nodiscard]] double judge_sight(Site& site, Pair& pair, Vec2 d, double d2) const;
-  void look_at_moving(Site& site) const;
-  void look_at_all(Site& site) const;
-  void look_around(Site& site) const;
-  void look_over(std::size_t i, std::span<const Vec2> positions, Scratch& s);
-  [[nodiscard]] bool looks_over(const Site& site, const Pair& pair) const;
-  [[nodiscard]] View look(const Site& site, const Pair& pair, Vec2 d, double length_m) const noexcept;
-  void apply_changes();
-  void merge();
-
-  double range_m_;
-  double radius_m_;
-  double near_m_;
-  double reach_m_;  // how far a row reaches
-  double units_per_m_;
-  Way skin_;   // a row is written anew once its clock has gone on so far; to the end of
-  Way valid_;  // this it misses no robot that matters
-  bool line_of_sight_;
-  bool leaky_;
-  bool dead_vanish_;
-  std::vector<Obstacle> obstacles_;
-
-  // As of the last update.
-  std::vector<Vec2> last_;
-  std::vector<std::uint8_t> alive_;
-  std::vector<std::uint8_t> raised_;  // by robot; empty unless sight leaks
-  bool raised_anew_ = false;          // since the last update
-  bool all_anew_ = true;              // every pair is to be decided again: sight or obstacles have changed
-
-  std::uint32_t nobody_;       // the index after the last robot's; is far away, and never moves
-  std::vector<Way> path_;      // how far each robot has moved,
-  std::vector<Way> step_;      // and in the last update
-  std::vector<Way> around_;    // the farthest move of any robot within its reach, summed over ticks
-  std::vector<Place> places_;  // relative to the middle of the swarm
-  float rounding_m_ = 0.0F;    // of the difference of two places, at most
-  Limits limits_{};
-  std::vector<Row> rows_;
-  RaggedArray<std::uint32_t> lower_;    // of each row those with a smaller index,
-  RaggedArray<Pair, lanes - 1> pairs_;  // and those with a larger one; ascending
-
-  // Grid of cells at least as wide as the reach, robots sorted by cell (counting sort).
-  double cell_m_ = 1.0;
-  std::size_t columns_ = 1, lines_ = 1;
-  bool use_grid_ = false;  // not while the swarm covers a few cells only
-  std::vector<std::uint32_t> cell_of_, cell_start_, sorted_;
-  std::vector<Way> motion_, across_;  // the farthest move in each cell in this tick; in three cells side by side
-
-  std::vector<Scratch> scratch_;
-  RaggedArray<std::uint32_t> links_;  // ascending
-  std::vector<std::uint32_t> count_;  // of links, while they are laid out anew
-  std::vector<Couple> near_;
+  class Fast;
+  std::unique_ptr<Fast> fast_;
 };
 
 }  // namespace banyan::world
