@@ -590,8 +590,8 @@ TEST(Recording, ASettingThatChangesIsKept) {
   EXPECT_TRUE(recording.setting_at(1e9) == second);
   PictureOptions options;
   options.legend = false;
-  EXPECT_NE(draw_svg(recording, 0.5, options).find("line of sight"), std::string::npos);
-  EXPECT_EQ(draw_svg(recording, 0.6, options).find("line of sight"), std::string::npos);
+  EXPECT_NE(draw_svg(recording, 0.5, options).find("occlusion"), std::string::npos);
+  EXPECT_EQ(draw_svg(recording, 0.6, options).find("occlusion"), std::string::npos);
   mcap::Reader reader(path);
   EXPECT_EQ(reader.message_count(reader.find_channel("/banyan/setting")->id), 2U);
 }

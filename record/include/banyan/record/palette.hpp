@@ -28,6 +28,46 @@ inline constexpr Color link{0xB8, 0xB8, 0xB8, "#b8b8b8"};       // radio links
 inline constexpr Color blocked{0x56, 0xB4, 0xE9, "#56b4e9"};    // in range, no line of sight: sky blue
 inline constexpr Color trail{0xB0, 0xA0, 0x10, "#b0a010"};      // of spares: their yellow, dark enough for a line
 inline constexpr Color obstacle{0xA6, 0xA0, 0x98, "#a6a098"};
+
+// What a picture on light or on dark ground is drawn in, as "#rrggbb". Roles have the same colours on both; only what
+// would drown in a dark ground is turned round. The web viewer's themes.ts has the same.
+struct Theme {
+  std::string_view paper, ink, faint_ink, outline, dead, target, target_ink;
+  std::string_view tree, old_tree, broken, link, blocked, connector, obstacle, spare_trail;
+  std::string_view trail;  // attributes of trails
+};
+inline constexpr Theme light{.paper = "#fdfdfc",
+                             .ink = "#1a1a1a",
+                             .faint_ink = "#5f5f5c",
+                             .outline = "#1a1a1a",
+                             .dead = dead.hex,
+                             .target = target.hex,
+                             .target_ink = "#8f3f6d",
+                             .tree = tree.hex,
+                             .old_tree = old_tree.hex,
+                             .broken = root.hex,
+                             .link = link.hex,
+                             .blocked = blocked.hex,
+                             .connector = connector.hex,
+                             .obstacle = obstacle.hex,
+                             .spare_trail = trail.hex,
+                             .trail = " stroke-opacity=\"0.5\""};
+inline constexpr Theme dark{.paper = "#14171a",
+                            .ink = "#eceae6",
+                            .faint_ink = "#a3a7ab",
+                            .outline = "#0b0d0f",
+                            .dead = "#8c8f93",
+                            .target = target.hex,
+                            .target_ink = "#e8b3d0",
+                            .tree = "#eceae6",
+                            .old_tree = old_tree.hex,
+                            .broken = "#f0732a",
+                            .link = "#5a6168",
+                            .blocked = blocked.hex,
+                            .connector = connector.hex,
+                            .obstacle = "#56534e",
+                            .spare_trail = trail.hex,
+                            .trail = " stroke-opacity=\"0.8\""};
 }  // namespace palette
 
 constexpr const Color& color_of(Role role, bool alive = true) noexcept {
