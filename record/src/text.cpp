@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 
@@ -14,15 +15,6 @@ namespace banyan::record {
 
 namespace {
 
-constexpr std::array<char, 200> digit_pairs = [] {
-  std::array<char, 200> pairs{};
-  for (std::size_t k = 0; k < 100; ++k) {
-    pairs[2 * k] = static_cast<char>('0' + k / 10);
-    pairs[2 * k + 1] = static_cast<char>('0' + k % 10);
-  }
-  return pairs;
-}();
-
 constexpr std::array<std::uint64_t, 10> power{1,      10,      100,      1000,      10000,
                                               100000, 1000000, 10000000, 100000000, 1000000000};
 
@@ -32,29 +24,6 @@ constexpr std::string_view replacement = "\xEF\xBF\xBD";
 
 }  // namespace
 
-char* write_natural(char* at, std::uint64_t value) noexcept {
-  if (value < 10) {
-    *at = static_cast<char>('0' + value);
-    return at + 1;
-  }
-  std::array<char, 20> digits;
-  std::size_t begin = digits.size();
-  while (value >= 100) {
-    begin -= 2;
-    std::memcpy(&digits[begin], &digit_pairs[2 * (value % 100)], 2);
-    value /= 100;
-  }
-  if (value >= 10) {
-    begin -= 2;
-    std::memcpy(&digits[begin], &digit_pairs[2 * value], 2);
-  } else {
-    digits[--begin] = static_cast<char>('0' + value);
-  }
-  const std::size_t length = digits.size() - begin;
-  std::memcpy(at, &digits[begin], length);
-  return at + length;
-}
-
 void Text::grow(std::size_t n) { buffer_.resize(std::max({size_ + n, 2 * buffer_.size(), std::size_t{256}})); }
 
 void Text::put(std::string_view text) {
@@ -63,50 +32,29 @@ void Text::put(std::string_view text) {
   size_ += text.size();
 }
 
-void Text::natural(std::uint64_t value) { advance_to(write_natural(space(20), value)); }
-
-void Text::integer(std::int64_t value) {
-  char* at = space(21);
-  if (value < 0) *at++ = '-';
-  const auto bits = static_cast<std::uint64_t>(value);
-  advance_to(write_natural(at, value < 0 ? std::uint64_t{0} - bits : bits));
+void Text::natural(std::uint64_t value) {
+  char* at = space(20);
+  advance_to(std::to_chars(at, at + 20, value).ptr);
 }
 
-template <int decimals> void Text::fixed_of(double value) {
-  constexpr std::uint64_t unit = power[decimals];
-  const auto number = static_cast<std::uint64_t>(std::fabs(value) * static_cast<double>(unit) + 0.5);
-  char* at = space(40);
-  if (value < 0.0 && number != 0) *at++ = '-';
-  at = write_natural(at, number / unit);
-  std::uint64_t rest = number % unit;
-  *at = '.';
-  for (int k = decimals - 1; k > 0; k -= 2) {
-    std::memcpy(at + k, &digit_pairs[2 * (rest % 100)], 2);
-    rest /= 100;
-  }
-  advance_to(at + decimals + 1);
+void Text::integer(std::int64_t value) {
+  char* at = space(20);
+  advance_to(std::to_chars(at, at + 20, value).ptr);
 }
 
 void Text::fixed(double value, int decimals, std::string_view otherwise) {
   if (!std::isfinite(value)) return put(otherwise);
-  // Frames consist of numbers with four and two decimals; known divisors become multiplications.
-  if (decimals == 4 && std::fabs(value) < exact_limit / 1e4) return fixed_of<4>(value);
-  if (decimals == 2 && std::fabs(value) < exact_limit / 1e2) return fixed_of<2>(value);
   const std::uint64_t unit = power[static_cast<std::size_t>(decimals)];
   const double scaled = std::fabs(value) * static_cast<double>(unit);
-  if (scaled >= exact_limit) { return advance_to(world::write_fixed(space(world::longest_fixed), value, decimals)); }
+  if (scaled >= exact_limit) return advance_to(world::write_fixed(space(world::longest_fixed), value, decimals));
   const auto number = static_cast<std::uint64_t>(scaled + 0.5);
   char* at = space(40);
   if (value < 0.0 && number != 0) *at++ = '-';
-  at = write_natural(at, number / unit);
+  at = std::to_chars(at, at + 20, number / unit).ptr;
   if (decimals > 0) {
-    std::uint64_t rest = number % unit;
-    *at = '.';
-    for (int k = decimals; k > 0; --k) {
-      at[k] = static_cast<char>('0' + rest % 10);
-      rest /= 10;
-    }
-    at += decimals + 1;
+    char* point = at;
+    at = std::to_chars(at, at + 20, unit + number % unit).ptr;  // zeros after a 1
+    *point = '.';
   }
   advance_to(at);
 }

@@ -50,14 +50,10 @@ class Text {
   void advance_to(const char* end) noexcept { size_ = static_cast<std::size_t>(end - buffer_.data()); }
 
  private:
-  template <int decimals> void fixed_of(double value);
   void grow(std::size_t n);
 
   std::string buffer_;
   std::size_t size_ = 0;
 };
-
-// Digits of `value` at `at` (at most 20); returns the end.
-char* write_natural(char* at, std::uint64_t value) noexcept;
 
 }  // namespace banyan::record

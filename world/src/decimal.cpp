@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 #include <string>
 #include <string_view>
 
@@ -22,104 +21,35 @@ template <class Float> Float read(const char* text) noexcept {
   else return std::strtof(text, nullptr);
 }
 
-// 0.d1d2d3... x 10^point
-struct Digits {
-  std::array<char, 24> text{};
-  int size = 0;
-  int point = 0;
-
-  // What "%.*e" has written: "d.ddde-05".
-  explicit Digits(const char* scientific) noexcept {
-    for (; *scientific != 'e'; ++scientific)
-      if (*scientific != '.') text[static_cast<std::size_t>(size++)] = *scientific;
-    point = static_cast<int>(std::strtol(scientific + 1, nullptr, 10)) + 1;
-  }
-  void increment() noexcept {
-    int k = size;
-    while (k > 0 && text[static_cast<std::size_t>(k - 1)] == '9') text[static_cast<std::size_t>(--k)] = '0';
-    if (k > 0) {
-      ++text[static_cast<std::size_t>(k - 1)];
-      return;
-    }
-    text[0] = '1';  // 999 became 000
-    ++point;
-  }
-  void drop_zeros() noexcept {
-    while (size > 1 && text[static_cast<std::size_t>(size - 1)] == '0') --size;
-  }
-  [[nodiscard]] std::string_view view() const noexcept { return {text.data(), static_cast<std::size_t>(size)}; }
-  template <class Float> [[nodiscard]] Float value() const noexcept {
-    std::array<char, 40> all;
-    static_cast<void>(std::snprintf(all.data(), all.size(), "0.%.*se%d", size, text.data(), point));
-    return read<Float>(all.data());
-  }
-};
-
-// The fewest digits that read back as `value` > 0, and of those the nearest. Rounding to so many digits
-// gives the nearest; but at a power of two the interval that reads back is wider above than below, so
-// that the next one up may read back where the nearest does not.
-template <class Float> Digits shortest_digits(Float value) noexcept {
-  std::array<char, 40> text;
-  for (int size = 1;; ++size) {
-    static_cast<void>(std::snprintf(text.data(), text.size(), "%.*e", size - 1, static_cast<double>(value)));
-    Digits digits(text.data());
-    bool good = digits.value<Float>() == value;
-    if (!good) {
-      digits.increment();
-      good = digits.value<Float>() == value;
-    }
-    if (!good && size < std::numeric_limits<Float>::max_digits10) continue;
-    digits.drop_zeros();
-    return digits;
-  }
-}
-
-char* copy(char* at, std::string_view text) noexcept {
-  std::memcpy(at, text.data(), text.size());
-  return at + text.size();
-}
-
-char* repeat(char* at, char c, int times) noexcept {
-  std::fill_n(at, times, c);
-  return at + times;
-}
-
-char* write_scientific(char* at, const Digits& digits) noexcept {
-  *at++ = digits.text[0];
-  if (digits.size > 1) {
-    *at++ = '.';
-    at = copy(at, digits.view().substr(1));
-  }
-  const int exponent = digits.point - 1;
-  return at + std::snprintf(at, 8, "e%c%02d", exponent < 0 ? '-' : '+', std::abs(exponent));
-}
-
-char* write_plain(char* at, const Digits& digits, double value) noexcept {
-  // A whole number with more digits than needed to identify it is written exactly, as by printf().
-  if (digits.point > digits.size) return at + std::snprintf(at, longest_shortest, "%.0f", value);
-  if (digits.point <= 0) {
-    at = copy(at, "0.");
-    return copy(repeat(at, '0', -digits.point), digits.view());
-  }
-  const auto whole = static_cast<std::size_t>(digits.point);
-  at = copy(at, digits.view().substr(0, whole));
-  if (digits.point == digits.size) return at;
-  *at++ = '.';
-  return copy(at, digits.view().substr(whole));
+// One more in the last place of "d.ddde-05". (Not of 9.99: fewer digits would have read back.)
+void increment(char* text) noexcept {
+  char* digit = std::strchr(text, 'e') - 1;
+  for (; digit > text && *digit == '9'; digit -= digit[-1] == '.' ? 2 : 1) *digit = '0';
+  if (*digit != '9') ++*digit;
 }
 
 template <class Float> char* shortest(char* at, Float value) noexcept {
-  if (std::signbit(value)) *at++ = '-';
-  value = std::fabs(value);
-  if (!std::isfinite(value)) return copy(at, std::isnan(value) ? "nan" : "inf");
-  if (value == Float{0}) return copy(at, "0");
-  const Digits digits = shortest_digits(value);
-  const int exponent = std::abs(digits.point - 1);
-  const int scientific = digits.size + (digits.size > 1 ? 1 : 0) + (exponent >= 100 ? 5 : 4);
-  const int plain = digits.point <= 0            ? 2 - digits.point + digits.size
-                    : digits.point < digits.size ? digits.size + 1
-                                                 : digits.point;
-  return plain <= scientific ? write_plain(at, digits, static_cast<double>(value)) : write_scientific(at, digits);
+  if (value == Float{0} || !std::isfinite(value))
+    return at + std::snprintf(at, longest_shortest, std::isnan(value) && std::signbit(value) ? "-nan" : "%.0f",
+                              std::isnan(value) ? std::fabs(static_cast<double>(value)) : static_cast<double>(value));
+  // The fewest digits that read back, and of those the nearest. At a power of two what reads back reaches farther up
+  // than down, so that one more may do where the nearest does not.
+  std::array<char, longest_shortest> scientific;
+  int places = -1;
+  do {
+    ++places;
+    static_cast<void>(std::snprintf(scientific.data(), scientific.size(), "%.*e", places, static_cast<double>(value)));
+    if (read<Float>(scientific.data()) != value) increment(scientific.data());
+  } while (read<Float>(scientific.data()) != value);
+  const auto exponent = static_cast<int>(std::strtol(std::strchr(scientific.data(), 'e') + 1, nullptr, 10));
+  std::array<char, 2 * longest_fixed> plain;
+  const int length =
+      std::snprintf(plain.data(), plain.size(), "%.*f", std::max(0, places - exponent), static_cast<double>(value));
+  const std::string_view shorter = static_cast<std::size_t>(length) <= std::strlen(scientific.data())
+                                       ? std::string_view(plain.data())
+                                       : std::string_view(scientific.data());
+  std::memcpy(at, shorter.data(), shorter.size());
+  return at + shorter.size();
 }
 
 }  // namespace
