@@ -168,7 +168,12 @@ std::optional<std::string> fault(const fs::path& room_folder, const fs::path& fi
     if (other != room && !allowed_for(room_folder, file).contains(other)) return "points up";
     return std::nullopt;
   }
-  if (include.quoted) return quoted_fault(room_folder, file, name);
+  if (include.quoted) {
+    const bool from_folder = room == "controller" && product && name.find('/') != std::string::npos;
+    if (from_folder && is_of_paper(file.lexically_relative(room_folder)) != is_of_paper(name))
+      return "is shared with the paper's room";
+    return quoted_fault(room_folder, file, name);
+  }
   const std::string part = room + "/" + part_of(room_folder, file).filename().string();
   for (const auto& [prefix, rooms] : homes) {
     if (name.starts_with(prefix) && !rooms.contains(room) && !rooms.contains(part)) return "belongs into another room";
@@ -200,6 +205,54 @@ std::string lines(const std::vector<std::string>& list) {
   return text;
 }
 
+// Of a path below src/ or include/banyan/ROOM/ the folder it is in; nothing if it is in none.
+std::optional<std::string> folder_of(const fs::path& path) {
+  const auto first = path.begin();
+  return first == path.end() || std::next(first) == path.end() ? std::nullopt : std::optional(first->string());
+}
+
+// Folder -> the folders of the same room that its product includes.
+std::map<std::string, Names, std::less<>> folder_arrows(const fs::path& house, const std::string& room) {
+  std::map<std::string, Names, std::less<>> arrows;
+  const std::string face = "banyan/" + room + "/";
+  for (const fs::path part : {"src", "include/banyan"}) {
+    const fs::path root = part == "src" ? house / room / part : house / room / part / room;
+    if (!fs::exists(root)) continue;
+    for (const fs::path& file : sources(root)) {
+      const auto from = folder_of(file.lexically_relative(root));
+      for (const Include& include : includes(file)) {
+        const bool is_face = include.name.starts_with(face);
+        if (!from || !(is_face || include.quoted)) continue;
+        const fs::path own = (file.parent_path() / include.name).lexically_relative(root).lexically_normal();
+        const fs::path named = is_face                  ? fs::path(include.name.substr(face.size()))
+                               : fs::exists(root / own) ? own
+                                                        : fs::path(include.name);
+        if (const auto to = folder_of(named); to && *to != *from && *to != "..") arrows[*from].insert(*to);
+      }
+    }
+  }
+  return arrows;
+}
+
+// Folders that include each other in a circle: those left when all that lead nowhere are taken away.
+std::string circle(std::map<std::string, Names, std::less<>> arrows) {
+  for (bool again = true; again;) {
+    again = false;
+    for (auto& [from, to] : arrows)
+      again |= std::erase_if(to, [&](const std::string& name) { return !arrows.contains(name); }) > 0;
+    again |= std::erase_if(arrows, [](const auto& one) { return one.second.empty(); }) > 0;
+  }
+  std::string names;
+  for (const auto& [from, to] : arrows) names += from + " ";
+  return names;
+}
+
+TEST(IncludeDirection, NoRoomHasACircleOfFolders) {
+  const fs::path house = BANYAN_SOURCE_DIR;
+  ASSERT_GT(folder_arrows(house, "controller").size(), 5U);
+  for (const auto& [room, allowed] : may_include) EXPECT_EQ(circle(folder_arrows(house, room)), "") << room;
+}
+
 TEST(IncludeDirection, ArrowsOfTheHousePointDown) {
   const fs::path house = BANYAN_SOURCE_DIR;
   ASSERT_GT(sources(house / "controller").size(), 10U);
@@ -215,9 +268,12 @@ class WrongHouse : public ::testing::Test {
     fs::remove_all(house_);
   }
   void TearDown() override { fs::remove_all(house_); }
-  std::string faults_of(const fs::path& file, const std::string& line) {
+  void write(const fs::path& file, const std::string& line) const {
     fs::create_directories((house_ / file).parent_path());
     std::ofstream(house_ / file) << "// a file\n" << line << "\nint x;\n";
+  }
+  [[nodiscard]] std::string faults_of(const fs::path& file, const std::string& line) const {
+    write(file, line);
     return lines(faults(house_));
   }
   fs::path house_;
@@ -229,6 +285,15 @@ TEST_F(WrongHouse, ControllerIncludesTheWorld) {
 }
 TEST_F(WrongHouse, ControllerTestIncludesTheWorld) {
   EXPECT_NE(faults_of("controller/test/x_test.cpp", "#include <banyan/world/world.hpp>"), "");
+}
+TEST_F(WrongHouse, TwoFoldersIncludeEachOther) {
+  write("controller/src/tree/a.hpp", "#include \"healing/b.hpp\"");
+  write("controller/src/core/c.hpp", "");
+  EXPECT_EQ(circle(folder_arrows(house_, "controller")), "");
+  write("controller/src/healing/b.hpp", "#include \"core/c.hpp\"");
+  EXPECT_EQ(circle(folder_arrows(house_, "controller")), "");
+  write("controller/src/core/c.hpp", "#include \"banyan/controller/tree/d.hpp\"");
+  EXPECT_EQ(circle(folder_arrows(house_, "controller")), "core healing tree ");
 }
 TEST_F(WrongHouse, ControllerUsesTheHeap) { EXPECT_NE(faults_of("controller/src/x.cpp", "#include <vector>"), ""); }
 TEST_F(WrongHouse, ControllerKnowsTheVersion) {

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "banyan/controller/convoy/convoy.hpp"
-#include "banyan/controller/convoy/robot.hpp"
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/healing/tick.hpp"
-#include "banyan/controller/paper/paper.hpp"
-#include "banyan/controller/tree/tree_index.hpp"
+#include "convoy/robot.hpp"
+#include "healing/healing.hpp"
+#include "healing/tick.hpp"
+#include "banyan/controller/paper/rules.hpp"
 #include "test_platform.hpp"
+#include "tree/tree_index.hpp"
 
 namespace banyan {
 

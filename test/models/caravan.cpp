@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "banyan/controller/caravan/caravan.hpp"
+#include "caravan/rules.hpp"
 
 namespace {
 

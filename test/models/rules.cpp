@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <array>
 
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/healing/hold.hpp"
-#include "banyan/controller/healing/tick.hpp"
-#include "banyan/controller/tree/census.hpp"
-#include "banyan/controller/tree/epoch.hpp"
-#include "banyan/controller/tree/label.hpp"
-#include "banyan/controller/tree/parent_selection.hpp"
-#include "banyan/controller/tree/root_selection.hpp"
-#include "banyan/controller/tree/spare_management.hpp"
-#include "banyan/controller/tree/tree_index.hpp"
+#include "healing/healing.hpp"
+#include "healing/hold.hpp"
+#include "healing/tick.hpp"
+#include "tree/census.hpp"
+#include "tree/epoch.hpp"
+#include "tree/label.hpp"
+#include "tree/parent_selection.hpp"
+#include "tree/root_selection.hpp"
+#include "tree/spare_management.hpp"
+#include "tree/tree_index.hpp"
 
 namespace {
 

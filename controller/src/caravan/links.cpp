@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Links that matter are promises, and how long a promise outlasts silence is learnt.
-#include "banyan/controller/caravan/caravan.hpp"
+#include "caravan/rules.hpp"
 
 namespace banyan::caravan {
 namespace {

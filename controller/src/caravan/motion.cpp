@@ -2,7 +2,7 @@
 // A robot has one goal, which follows from its role, and one filter.
 #include <iterator>
 
-#include "banyan/controller/caravan/caravan.hpp"
+#include "caravan/rules.hpp"
 
 namespace banyan::caravan {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The order: who may be whose parent.
-#include "banyan/controller/caravan/caravan.hpp"
+#include "caravan/rules.hpp"
 
 namespace banyan::caravan {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One cost decides who is whose parent: the first choice, repair, insertion, release and merging are one rule.
-#include "banyan/controller/caravan/caravan.hpp"
+#include "caravan/rules.hpp"
 
 namespace banyan::caravan {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Whoever needs a robot advertises a post; how far the nearest one is, is one gradient.
-#include "banyan/controller/caravan/caravan.hpp"
+#include "caravan/rules.hpp"
 
 namespace banyan::caravan {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A robot of the tree that runs low advertises a post beside itself and costs more as a parent; so it is relieved like
 // any other. What it holds it hands over. A spare that runs low goes to be charged.
-#include "banyan/controller/caravan/caravan.hpp"
+#include "caravan/rules.hpp"
 
 namespace banyan::caravan {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What hides an edge: robots beside it, and corners of obstacles that were passed.
-#include "banyan/controller/caravan/caravan.hpp"
+#include "caravan/rules.hpp"
 
 namespace banyan::caravan {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One round of one robot.
-#include "banyan/controller/caravan/caravan.hpp"
+#include "caravan/rules.hpp"
 
 namespace banyan::caravan {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The root and the holders of targets are the same thing: a token, whose holder counts rounds. All robots pass on the
 // newest counts and the places; the nearest free robot takes the token of a holder that has fallen silent.
-#include "banyan/controller/caravan/caravan.hpp"
+#include "caravan/rules.hpp"
 
 namespace banyan::caravan {
 namespace {

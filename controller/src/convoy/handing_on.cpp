@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/convoy/handing_on.hpp"
+#include "convoy/handing_on.hpp"
 
-#include "banyan/controller/convoy/shortcut.hpp"
-#include "banyan/controller/tree/parent_selection.hpp"
+#include "convoy/shortcut.hpp"
+#include "tree/parent_selection.hpp"
 
 namespace banyan {
 

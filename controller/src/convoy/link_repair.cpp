@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Rule 6: edges are kept in sight.
-#include "banyan/controller/convoy/shortcut.hpp"
+#include "convoy/shortcut.hpp"
 
 #include <algorithm>
 
-#include "banyan/controller/convoy/towing.hpp"
-#include "banyan/controller/obstacles/sight.hpp"
-#include "banyan/controller/redundancy/companions.hpp"
-#include "banyan/controller/tree/parent_selection.hpp"
+#include "convoy/companions.hpp"
+#include "convoy/towing.hpp"
+#include "obstacles/sight.hpp"
+#include "tree/parent_selection.hpp"
 
 namespace banyan {
 namespace {

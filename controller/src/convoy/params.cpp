@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "banyan/controller/tree/robot.hpp"
+#include "tree/robot.hpp"
 
 namespace banyan {
 namespace {

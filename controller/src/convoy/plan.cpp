@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/convoy/plan.hpp"
+#include "convoy/plan.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
 
-#include "banyan/controller/convoy/towing.hpp"
 #include "banyan/controller/core/search.hpp"
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/obstacles/bypass.hpp"
-#include "banyan/controller/redundancy/companions.hpp"
+#include "convoy/companions.hpp"
+#include "convoy/towing.hpp"
+#include "healing/healing.hpp"
+#include "obstacles/bypass.hpp"
 
 namespace banyan {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Rule 9: fewer robots, once all workers below have arrived.
-#include "banyan/controller/convoy/shortcut.hpp"
+#include "convoy/shortcut.hpp"
 
 #include <algorithm>
 
-#include "banyan/controller/convoy/plan.hpp"
-#include "banyan/controller/convoy/towing.hpp"
-#include "banyan/controller/tree/parent_selection.hpp"
+#include "convoy/plan.hpp"
+#include "convoy/towing.hpp"
+#include "tree/parent_selection.hpp"
 
 namespace banyan {
 namespace {

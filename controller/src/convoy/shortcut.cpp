@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Which change of parent comes first, and shortening branches.
-#include "banyan/controller/convoy/shortcut.hpp"
+#include "convoy/shortcut.hpp"
 
 #include <algorithm>
 
-#include "banyan/controller/convoy/handing_on.hpp"
-#include "banyan/controller/convoy/towing.hpp"
 #include "banyan/controller/core/search.hpp"
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/obstacles/sight.hpp"
-#include "banyan/controller/redundancy/folding.hpp"
-#include "banyan/controller/tree/parent_selection.hpp"
+#include "convoy/folding.hpp"
+#include "convoy/handing_on.hpp"
+#include "convoy/towing.hpp"
+#include "healing/healing.hpp"
+#include "obstacles/sight.hpp"
+#include "tree/parent_selection.hpp"
 
 namespace banyan {
 namespace {

@@ -2,20 +2,20 @@
 // How convoy moves (docs/convoy.md).
 #include <algorithm>
 
-#include "banyan/controller/convoy/handing_on.hpp"
-#include "banyan/controller/convoy/plan.hpp"
-#include "banyan/controller/convoy/shortcut.hpp"
-#include "banyan/controller/convoy/towing.hpp"
 #include "banyan/controller/core/edge_frame.hpp"
 #include "banyan/controller/core/search.hpp"
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/obstacles/bypass.hpp"
-#include "banyan/controller/obstacles/sight.hpp"
-#include "banyan/controller/redundancy/companions.hpp"
-#include "banyan/controller/redundancy/folding.hpp"
-#include "banyan/controller/tree/motion.hpp"
-#include "banyan/controller/tree/parent_selection.hpp"
-#include "banyan/controller/tree/spare_management.hpp"
+#include "convoy/companions.hpp"
+#include "convoy/folding.hpp"
+#include "convoy/handing_on.hpp"
+#include "convoy/plan.hpp"
+#include "convoy/shortcut.hpp"
+#include "convoy/towing.hpp"
+#include "healing/healing.hpp"
+#include "obstacles/bypass.hpp"
+#include "obstacles/sight.hpp"
+#include "tree/motion.hpp"
+#include "tree/parent_selection.hpp"
+#include "tree/spare_management.hpp"
 
 namespace banyan {
 namespace {

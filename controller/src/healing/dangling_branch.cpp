@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "banyan/controller/core/search.hpp"
-#include "banyan/controller/healing/healing.hpp"
+#include "healing/healing.hpp"
 
 namespace banyan {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "banyan/controller/healing/healing.hpp"
+#include "healing/healing.hpp"
 
 namespace banyan {
 namespace {

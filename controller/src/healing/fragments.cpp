@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/tree/epoch.hpp"
-#include "banyan/controller/tree/root_selection.hpp"
+#include "healing/healing.hpp"
+#include "tree/epoch.hpp"
+#include "tree/root_selection.hpp"
 
 namespace banyan {
 namespace {

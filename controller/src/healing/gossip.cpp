@@ -3,7 +3,7 @@
 
 #include "banyan/controller/core/edge_frame.hpp"
 #include "banyan/controller/core/search.hpp"
-#include "banyan/controller/healing/healing.hpp"
+#include "healing/healing.hpp"
 
 namespace banyan {
 namespace {

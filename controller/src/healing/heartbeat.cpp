@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/healing/tie.hpp"
-#include "banyan/controller/tree/epoch.hpp"
+#include "healing/healing.hpp"
+#include "healing/tie.hpp"
+#include "tree/epoch.hpp"
 
 namespace banyan {
 namespace {

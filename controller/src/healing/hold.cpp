@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/healing/hold.hpp"
+#include "healing/hold.hpp"
 
 #include <limits>
 
-#include "banyan/controller/tree/parent_selection.hpp"
+#include "tree/parent_selection.hpp"
 
 namespace banyan {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/healing/link_guard.hpp"
+#include "healing/link_guard.hpp"
 
 #include <algorithm>
 
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/healing/tie.hpp"
-#include "banyan/controller/tree/motion.hpp"
+#include "healing/healing.hpp"
+#include "healing/tie.hpp"
+#include "tree/motion.hpp"
 
 namespace banyan {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/healing/tie.hpp"
+#include "healing/healing.hpp"
+#include "healing/tie.hpp"
 
 namespace banyan {
 namespace {

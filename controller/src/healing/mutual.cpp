@@ -5,8 +5,8 @@
 // than it can name: every second message of it names nobody, so that no two names follow each other.
 #include <algorithm>
 
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/tree/parent_selection.hpp"
+#include "healing/healing.hpp"
+#include "tree/parent_selection.hpp"
 
 namespace banyan {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "banyan/controller/core/fixed_point.hpp"
-#include "banyan/controller/healing/healing.hpp"
+#include "healing/healing.hpp"
 
 namespace banyan {
 namespace {

@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "banyan/controller/core/search.hpp"
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/obstacles/bypass.hpp"
-#include "banyan/controller/tree/motion.hpp"
+#include "healing/healing.hpp"
+#include "obstacles/bypass.hpp"
+#include "tree/motion.hpp"
 
 namespace banyan {
 namespace {

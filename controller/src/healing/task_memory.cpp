@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/healing/healing.hpp"
+#include "healing/healing.hpp"
 
 namespace banyan {
 

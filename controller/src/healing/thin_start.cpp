@@ -3,7 +3,7 @@
 // packets get lost, another part of the network may hear a robot that has not heard it yet.
 #include <algorithm>
 
-#include "banyan/controller/healing/healing.hpp"
+#include "healing/healing.hpp"
 
 namespace banyan {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/healing/tick.hpp"
+#include "healing/tick.hpp"
 
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/healing/tie.hpp"
-#include "banyan/controller/obstacles/bypass.hpp"
+#include "healing/healing.hpp"
+#include "healing/tie.hpp"
+#include "obstacles/bypass.hpp"
 
 namespace banyan {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/healing/tie.hpp"
+#include "healing/tie.hpp"
 
 #include <algorithm>
 
-#include "banyan/controller/healing/healing.hpp"
+#include "healing/healing.hpp"
 
 namespace banyan {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/obstacles/way_round.hpp"
+#include "obstacles/way_round.hpp"
 
 #include <algorithm>
 #include <cmath>

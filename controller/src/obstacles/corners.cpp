@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/obstacles/corners.hpp"
+#include "obstacles/corners.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include "banyan/controller/core/edge_frame.hpp"
 #include "banyan/controller/core/function_ref.hpp"
 #include "banyan/controller/core/search.hpp"
-#include "banyan/controller/obstacles/bypass.hpp"
-#include "banyan/controller/obstacles/sight.hpp"
-#include "banyan/controller/tree/motion.hpp"
+#include "obstacles/bypass.hpp"
+#include "obstacles/sight.hpp"
+#include "tree/motion.hpp"
 
 namespace banyan {
 namespace {

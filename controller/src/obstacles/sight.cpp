@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/obstacles/sight.hpp"
+#include "obstacles/sight.hpp"
 
 namespace banyan {
 namespace {

@@ -3,7 +3,7 @@
 // from the leaves to the root." "A tree-based distributed algorithm to count the number of robots currently committed
 // in the tree" (paper Sec. III-C, Alg. 1, Alg. 2)
 #include "banyan/controller/core/edge_frame.hpp"
-#include "banyan/controller/paper/paper.hpp"
+#include "banyan/controller/paper/rules.hpp"
 
 namespace banyan::paper {
 namespace {

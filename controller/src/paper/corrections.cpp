@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What `corrected` does in place of what is printed, by the rows of docs/paper.md.
-#include "banyan/controller/paper/paper.hpp"
+#include "banyan/controller/paper/rules.hpp"
 
 namespace banyan::paper {
 namespace {
@@ -141,6 +141,7 @@ void row_13_keep_off(const Robot& robot, Guard& guard) noexcept {
 
 }  // namespace
 
+constexpr Reading literal{};
 constexpr Reading corrected{
     .asks_while_wanted = true,
     .f = row_3_directional_f,

@@ -6,7 +6,7 @@
 //
 // "Go" is the pair (epoch, phase): it only grows, and every robot passes on the largest that it hears, so a lost
 // message delays a robot but never strands it.
-#include "banyan/controller/paper/paper.hpp"
+#include "banyan/controller/paper/rules.hpp"
 
 namespace banyan::paper {
 namespace {

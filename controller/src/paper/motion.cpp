@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // "The integrity of the tree over time is ensured by constraining the robots' motion. We enforce the constraints by
 // expressing the robot motion as a sum of virtual potential forces" (paper Sec. III-G)
-#include "banyan/controller/paper/paper.hpp"
+#include "banyan/controller/paper/rules.hpp"
 
 namespace banyan::paper {
 namespace {

@@ -2,7 +2,7 @@
 // "In this state, each robot must identify a new parent to attach to. The selection of a new parent aims to create the
 // shortest possible paths between the root robot and the worker robots, i.e., the leaf nodes in the tree." (paper
 // Sec. III-B)
-#include "banyan/controller/paper/paper.hpp"
+#include "banyan/controller/paper/rules.hpp"
 
 namespace banyan::paper {
 namespace {

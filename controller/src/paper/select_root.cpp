@@ -5,7 +5,7 @@
 // message, it sends an acknowledgement message to the old root, and then it expresses the centroid in its own reference
 // frame. The process is repeated until the root is the closest robot to the centroid estimate." (paper Sec. III-C)
 #include "banyan/controller/core/edge_frame.hpp"
-#include "banyan/controller/paper/paper.hpp"
+#include "banyan/controller/paper/rules.hpp"
 
 namespace banyan::paper {
 namespace {

@@ -3,7 +3,7 @@
 // spare robots and non-spare robots" (paper Sec. III-F)
 //
 // An edge belongs to its child end, its owner, which lets in one spare at a time (row y).
-#include "banyan/controller/paper/paper.hpp"
+#include "banyan/controller/paper/rules.hpp"
 
 namespace banyan::paper {
 namespace {

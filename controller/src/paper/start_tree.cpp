@@ -3,7 +3,7 @@
 // message propagates throughout the network, the robots estimate their distance from the root. This is possible because
 // of situated communication - every robot can estimate a relative vector to each of its immediate neighbors." (paper
 // Sec. III-B)
-#include "banyan/controller/paper/paper.hpp"
+#include "banyan/controller/paper/rules.hpp"
 
 namespace banyan::paper {
 namespace {

@@ -2,7 +2,7 @@
 // "a high-level state machine that encodes the behavior of every robot" (paper Sec. III-B, Fig. 1): one tick of one
 // robot.
 #include "banyan/controller/core/edge_frame.hpp"
-#include "banyan/controller/paper/paper.hpp"
+#include "banyan/controller/paper/rules.hpp"
 
 namespace banyan::paper {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/power/power.hpp"
+#include "healing/healing.hpp"
+#include "power/power.hpp"
 
 namespace banyan {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How robots on batteries move: out of the lines of sight of those that change places, and spares that wait save their
 // charge.
-#include "banyan/controller/power/power.hpp"
+#include "power/power.hpp"
 
 namespace banyan {
 namespace {

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "banyan/controller/core/search.hpp"
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/power/power.hpp"
+#include "healing/healing.hpp"
+#include "power/power.hpp"
 
 namespace banyan {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/tree/census.hpp"
+#include "tree/census.hpp"
 
 #include <algorithm>
 

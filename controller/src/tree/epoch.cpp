@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/tree/epoch.hpp"
+#include "tree/epoch.hpp"
 
 namespace banyan {
 namespace {

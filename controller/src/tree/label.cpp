@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/tree/label.hpp"
+#include "tree/label.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/tree/motion.hpp"
+#include "tree/motion.hpp"
 
 namespace banyan {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/tree/parent_selection.hpp"
+#include "tree/parent_selection.hpp"
 
 #include <algorithm>
 
 #include "banyan/controller/core/search.hpp"
-#include "banyan/controller/tree/label.hpp"
+#include "tree/label.hpp"
 
 namespace banyan {
 namespace {

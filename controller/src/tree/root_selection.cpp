@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/tree/root_selection.hpp"
+#include "tree/root_selection.hpp"
 
 #include <algorithm>
 
 #include "banyan/controller/core/edge_frame.hpp"
 #include "banyan/controller/core/search.hpp"
-#include "banyan/controller/tree/epoch.hpp"
+#include "tree/epoch.hpp"
 
 namespace banyan {
 namespace {

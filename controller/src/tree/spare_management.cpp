@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/tree/spare_management.hpp"
+#include "tree/spare_management.hpp"
 
 #include <algorithm>
 #include <limits>
 
 #include "banyan/controller/core/search.hpp"
-#include "banyan/controller/tree/label.hpp"
-#include "banyan/controller/tree/parent_selection.hpp"
+#include "tree/label.hpp"
+#include "tree/parent_selection.hpp"
 
 namespace banyan {
 namespace {

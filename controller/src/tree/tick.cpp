@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/tree/tick.hpp"
+#include "tree/tick.hpp"
 
 #include <algorithm>
 

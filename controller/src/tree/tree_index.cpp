@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/tree/tree_index.hpp"
+#include "tree/tree_index.hpp"
 
 #include <algorithm>
 
-#include "banyan/controller/tree/parent_selection.hpp"
+#include "tree/parent_selection.hpp"
 
 namespace banyan {
 

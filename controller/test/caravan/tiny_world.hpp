@@ -13,7 +13,7 @@
 
 #include <rapidcheck.h>
 
-#include "banyan/controller/caravan/caravan.hpp"
+#include "caravan/rules.hpp"
 #include "test_platform.hpp"
 
 namespace banyan::caravan {

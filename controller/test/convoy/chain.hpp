@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "banyan/controller/convoy/shortcut.hpp"
-#include "banyan/controller/convoy/towing.hpp"
 #include "bench.hpp"
+#include "convoy/shortcut.hpp"
+#include "convoy/towing.hpp"
 
 namespace banyan {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // In a large swarm a junction is handed on to the robot below it.
-#include "banyan/controller/convoy/handing_on.hpp"
+#include "convoy/handing_on.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Robots keep their parent in sight, or take another in time.
-#include "banyan/controller/convoy/shortcut.hpp"
+#include "convoy/shortcut.hpp"
 
 #include <gtest/gtest.h>
 

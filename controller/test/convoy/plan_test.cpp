@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Chains from target to target: what the root plans, how the plan travels down the tree, and how the
 // topmost robot of a branch leads it (docs/convoy.md).
-#include "banyan/controller/convoy/plan.hpp"
+#include "convoy/plan.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Convoy's rules for fewer robots: who re-parents to whom once all workers below have arrived, and
 // how a branch slides together (docs/convoy.md).
-#include "banyan/controller/convoy/shortcut.hpp"
+#include "convoy/shortcut.hpp"
 
 #include <gtest/gtest.h>
 
 #include <deque>
 #include <initializer_list>
 
-#include "banyan/controller/convoy/towing.hpp"
 #include "bench.hpp"
+#include "convoy/towing.hpp"
 
 namespace banyan {
 namespace {

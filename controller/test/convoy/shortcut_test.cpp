@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Branches are shortened, and no shortcut breaks the order of the tree.
-#include "banyan/controller/convoy/shortcut.hpp"
+#include "convoy/shortcut.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "banyan/controller/tree/parent_selection.hpp"
 #include "chain.hpp"
+#include "tree/parent_selection.hpp"
 
 namespace banyan {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How robots of convoy move.
-#include "banyan/controller/convoy/towing.hpp"
+#include "convoy/towing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,10 +7,10 @@
 #include <array>
 #include <random>
 
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/healing/link_guard.hpp"
-#include "banyan/controller/tree/motion.hpp"
 #include "bench.hpp"
+#include "healing/healing.hpp"
+#include "healing/link_guard.hpp"
+#include "tree/motion.hpp"
 
 namespace banyan {
 namespace {

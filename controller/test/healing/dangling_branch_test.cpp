@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The end of a torn branch goes where the robot below it was.
-#include "banyan/controller/healing/healing.hpp"
+#include "healing/healing.hpp"
 
 #include <gtest/gtest.h>
 

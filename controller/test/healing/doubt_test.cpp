@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where robots forget, only those in charge of a worker doubt that it lives, and whoever knows better answers.
-#include "banyan/controller/healing/healing.hpp"
+#include "healing/healing.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Two networks meet, each with a root.
-#include "banyan/controller/healing/healing.hpp"
+#include "healing/healing.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

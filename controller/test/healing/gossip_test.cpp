@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Points told to a neighbour: exact although both move and turn between writing and reading.
-#include "banyan/controller/healing/healing.hpp"
+#include "healing/healing.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The root counts; whoever is near to where it fell silent becomes root.
-#include "banyan/controller/healing/healing.hpp"
+#include "healing/healing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Who has no parent has a hold, by the order of the tree, and both ends keep the link.
-#include "banyan/controller/healing/hold.hpp"
-#include "banyan/controller/healing/link_guard.hpp"
+#include "healing/hold.hpp"
+#include "healing/link_guard.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/tree/motion.hpp"
 #include "bench.hpp"
+#include "healing/healing.hpp"
+#include "tree/motion.hpp"
 
 namespace banyan {
 namespace {

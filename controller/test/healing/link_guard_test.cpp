@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Whom a robot must not push: one that is pushed does not notice.
-#include "banyan/controller/healing/link_guard.hpp"
+#include "healing/link_guard.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How long a neighbour may be silent follows the share of packets that are lost.
-#include "banyan/controller/healing/healing.hpp"
+#include "healing/healing.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

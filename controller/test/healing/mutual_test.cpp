@@ -7,12 +7,12 @@
 #include <random>
 #include <set>
 
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/healing/hold.hpp"
-#include "banyan/controller/healing/link_guard.hpp"
-#include "banyan/controller/tree/motion.hpp"
-#include "banyan/controller/tree/parent_selection.hpp"
 #include "bench.hpp"
+#include "healing/healing.hpp"
+#include "healing/hold.hpp"
+#include "healing/link_guard.hpp"
+#include "tree/motion.hpp"
+#include "tree/parent_selection.hpp"
 
 namespace banyan {
 namespace {

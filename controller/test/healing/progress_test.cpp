@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A worker that gets no nearer to its target leaves it to others.
-#include "banyan/controller/healing/healing.hpp"
+#include "healing/healing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The way back to where the others must be.
-#include "banyan/controller/healing/healing.hpp"
+#include "healing/healing.hpp"
 
 #include <gtest/gtest.h>
 
-#include "banyan/controller/convoy/handing_on.hpp"
 #include "banyan/controller/core/trig.hpp"
+#include "convoy/handing_on.hpp"
 #include "watch.hpp"
 
 namespace banyan {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A target whose worker fell silent gets another.
-#include "banyan/controller/healing/healing.hpp"
+#include "healing/healing.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Of more targets than it can remember a robot remembers those that it has to.
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/healing/tick.hpp"
+#include "healing/healing.hpp"
+#include "healing/tick.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -2,11 +2,11 @@
 // Where few neighbours were heard at the start, all of them far away, others may not have been heard yet.
 #include <gtest/gtest.h>
 
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/healing/hold.hpp"
-#include "banyan/controller/healing/link_guard.hpp"
-#include "banyan/controller/healing/tie.hpp"
 #include "bench.hpp"
+#include "healing/healing.hpp"
+#include "healing/hold.hpp"
+#include "healing/link_guard.hpp"
+#include "healing/tie.hpp"
 
 namespace banyan {
 namespace {

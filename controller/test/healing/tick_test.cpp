@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a robot that heals makes of its orders: sent, called back, given up, resigned, taken over.
-#include "banyan/controller/healing/tick.hpp"
+#include "healing/tick.hpp"
 
 #include <gtest/gtest.h>
 

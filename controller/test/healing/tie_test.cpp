@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which silent neighbours may depend on a robot.
-#include "banyan/controller/healing/tie.hpp"
+#include "healing/tie.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The way round obstacles in a plane world of points.
-#include "banyan/controller/obstacles/bypass.hpp"
+#include "obstacles/bypass.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "banyan/controller/core/trig.hpp"
-#include "banyan/controller/tree/motion.hpp"
 #include "bench.hpp"
 #include "numbers.hpp"
+#include "tree/motion.hpp"
 
 namespace banyan {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is kept clear of corners, and what is remembered of them.
-#include "banyan/controller/obstacles/corners.hpp"
+#include "obstacles/corners.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,9 +8,9 @@
 #include <algorithm>
 
 #include "banyan/controller/core/trig.hpp"
-#include "banyan/controller/tree/motion.hpp"
 #include "bench.hpp"
 #include "numbers.hpp"
+#include "tree/motion.hpp"
 
 namespace banyan {
 namespace {

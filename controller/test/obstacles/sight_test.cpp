@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Lines of sight past known robots, against sampled points of the segment.
-#include "banyan/controller/obstacles/sight.hpp"
+#include "obstacles/sight.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "banyan/controller/convoy/convoy.hpp"
-#include "banyan/controller/convoy/towing.hpp"
-#include "banyan/controller/power/power.hpp"
 #include "bench.hpp"
+#include "convoy/towing.hpp"
 #include "over_the_wire.hpp"
+#include "power/power.hpp"
 
 namespace banyan {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Algorithms 1 and 2 of the paper on settled random trees of real controllers: counts and centroid
 // against the truth that only the test knows.
-#include "banyan/controller/tree/census.hpp"
+#include "tree/census.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "banyan/controller/core/trig.hpp"
-#include "banyan/controller/tree/tick.hpp"
-#include "banyan/controller/tree/tree_index.hpp"
 #include "bench.hpp"
 #include "over_the_wire.hpp"
+#include "tree/tick.hpp"
+#include "tree/tree_index.hpp"
 
 namespace banyan {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Gossip of epoch, phase and root token; the root's barriers.
-#include "banyan/controller/tree/epoch.hpp"
+#include "tree/epoch.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Labels are taken once, along the shortest hop, and the echo tells the root when all have one.
-#include "banyan/controller/tree/label.hpp"
+#include "tree/label.hpp"
 
 #include <gtest/gtest.h>
 
-#include "banyan/controller/tree/parent_selection.hpp"
 #include "bench.hpp"
+#include "tree/parent_selection.hpp"
 
 namespace banyan {
 namespace {

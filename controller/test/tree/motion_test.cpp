@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Emergencies, avoidance, and the control law against the paper's equations.
-#include "banyan/controller/tree/motion.hpp"
+#include "tree/motion.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Who may be a parent, whom each algorithm prefers, and what becomes of robots that lose theirs.
-#include "banyan/controller/tree/parent_selection.hpp"
+#include "tree/parent_selection.hpp"
 
 #include <gtest/gtest.h>
 

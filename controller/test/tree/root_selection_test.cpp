@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The root token moves from neighbour to neighbour towards the centroid.
-#include "banyan/controller/tree/root_selection.hpp"
+#include "tree/root_selection.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The two state machines of the paper's Fig. 5: the owner of a stretched edge and the spare that
 // joins it.
-#include "banyan/controller/tree/spare_management.hpp"
+#include "tree/spare_management.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The beginning of a tick: packets are carried to where their senders are now, strangers are told from
 // nobody, orders are followed.
-#include "banyan/controller/tree/tick.hpp"
+#include "tree/tick.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The roles that follow from the tree.
-#include "banyan/controller/tree/tree_index.hpp"
+#include "tree/tree_index.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,7 @@
 
 #include "banyan/algorithms/swarms.hpp"
 #include "banyan/controller/core/algorithm_of.hpp"
+#include "banyan/controller/paper/rules.hpp"
 
 namespace banyan {
 

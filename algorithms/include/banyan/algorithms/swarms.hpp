@@ -5,7 +5,6 @@
 #include "banyan/controller/caravan/caravan.hpp"
 #include "banyan/controller/convoy/convoy.hpp"
 #include "banyan/controller/core/swarm_of.hpp"
-#include "banyan/controller/healing/tick.hpp"
 #include "banyan/controller/paper/paper.hpp"
 
 namespace banyan {

@@ -113,4 +113,11 @@ template <class Visitor, class M> constexpr void visit_all(Visitor& visit, M& m)
 template <class Visitor> constexpr void visit_fields(Visitor& visit, Message& m) noexcept { visit_all(visit, m); }
 template <class Visitor> constexpr void visit_fields(Visitor& visit, const Message& m) noexcept { visit_all(visit, m); }
 
+struct Heard {
+  const Message* message;
+  Vec2 position;
+  float age_s = 0.0F;
+  Vec2 before{};  // where it was a round ago, in my frame of then; zero: it was not heard then
+};
+
 }  // namespace banyan::caravan

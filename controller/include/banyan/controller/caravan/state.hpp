@@ -9,7 +9,7 @@
 #include "banyan/controller/caravan/message.hpp"
 #include "banyan/controller/core/neighbors.hpp"
 #include "banyan/controller/core/search.hpp"
-#include "banyan/controller/obstacles/way_round.hpp"
+#include "banyan/controller/obstacles/state.hpp"
 
 namespace banyan::caravan {
 

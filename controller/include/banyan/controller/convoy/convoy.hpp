@@ -4,12 +4,10 @@
 #pragma once
 
 #include "banyan/controller/convoy/params.hpp"
-#include "banyan/controller/convoy/robot.hpp"
 #include "banyan/controller/convoy/state.hpp"
 #include "banyan/controller/core/digest.hpp"
 #include "banyan/controller/core/gate.hpp"
 #include "banyan/controller/core/output.hpp"
-#include "banyan/controller/healing/tick.hpp"
 
 namespace banyan {
 
@@ -29,9 +27,6 @@ namespace banyan {
                                                                const Inputs<Heard>& inputs) noexcept;
 [[nodiscard]] Report powered_report(const PoweredConvoyState& state) noexcept;
 void add_to(Digest& digest, const PoweredConvoyState& state) noexcept;
-
-// The beginning of a tick (tree/tick.hpp): memory is carried, the table brought up to date, orders followed.
-void begin_tick(ConvoyRobot& robot, const Inputs<Heard>& inputs) noexcept;
 
 [[nodiscard]] Report convoy_report(const ConvoyState& state) noexcept;
 void add_to(Digest& digest, const ConvoyState& state) noexcept;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "banyan/controller/healing/message.hpp"
-#include "banyan/controller/obstacles/corners.hpp"
+#include "banyan/controller/obstacles/state.hpp"
 #include "banyan/controller/power/message.hpp"
 
 namespace banyan {
@@ -11,7 +11,7 @@ namespace banyan {
 struct ConvoyStanding {
   std::uint8_t child_count = 0;  // living children that are not spares
   RobotId below = nobody;        // the only worker below me, by its target; nobody: there are branches.
-                                 // Of a spare: the robot that it accompanies (redundancy/companions.hpp)
+                                 // Of a spare: the robot that it accompanies (convoy/companions.hpp)
 
   friend bool operator==(const ConvoyStanding&, const ConvoyStanding&) = default;
 };

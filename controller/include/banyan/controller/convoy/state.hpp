@@ -37,7 +37,7 @@ struct ConvoyMemory {
   RobotCount tried_with = 0;       // the most spares with which a target was tried again
   std::array<RobotId, task_capacity> hosts = none();  // the plan: at which target the branch of tasks[k] is to begin
 
-  // A second path (redundancy/companions.hpp)
+  // A second path (convoy/companions.hpp)
   RobotId accompanies = nobody;   // a spare: the robot of the tree that it stands beside
   std::uint16_t alone_ticks = 0;  // for so long a companion has been missed here, or more urgently elsewhere
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "banyan/controller/healing/message.hpp"
-#include "banyan/controller/obstacles/bypass.hpp"
+#include "banyan/controller/obstacles/state.hpp"
 #include "banyan/controller/tree/state.hpp"
 
 namespace banyan {

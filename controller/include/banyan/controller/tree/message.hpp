@@ -29,7 +29,7 @@ inline constexpr std::uint16_t largest_label = unknown_label - 1;
 inline constexpr std::uint16_t invalid_depth = 0;
 inline constexpr std::uint8_t unreachable = 0xFF;
 inline constexpr std::uint8_t nobody_calls = 0xFF;
-// From here on: of calls for companions (redundancy/), which come last.
+// From here on: of calls for companions (convoy/companions.hpp), which come last.
 inline constexpr std::uint8_t companion_call = 128;
 
 // How a robot is tied to others. It seldom changes from one message to the next (table.hpp).
