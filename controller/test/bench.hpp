@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "banyan/controller/convoy/convoy.hpp"
+#include "banyan/controller/paper/rules.hpp"
 #include "convoy/robot.hpp"
 #include "healing/healing.hpp"
 #include "healing/tick.hpp"
-#include "banyan/controller/paper/rules.hpp"
 #include "test_platform.hpp"
 #include "tree/tree_index.hpp"
 
