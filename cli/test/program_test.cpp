@@ -322,7 +322,7 @@ TEST_F(Program, NoControlCharacterReachesTheTerminal) {
                                                            {"run", "#scenario=three-targets&set=%1b[2J=1"},
                                                            {"run", "small.toml", "--set", evil + "=1"},
                                                            {"run", "small.toml", "--" + evil},
-                                                           {"export", evil, "--csv"},
+                                                           {"export", evil},
                                                            {"study", evil},
                                                            {evil}}) {
     const auto outcome = run(arguments);
@@ -370,7 +370,7 @@ TEST_F(Program, AFullDiskIsSaidAndCostsNeitherTheRunNorTheOtherFiles) {
   EXPECT_EQ(outcome.code, 1) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "o/run.mcap: cannot write: File too large")) << outcome.err;  // what EFBIG is called
   EXPECT_TRUE(has(outcome.err, "what was recorded until then is in o/run.mcap.part")) << outcome.err;
-  const auto rescued = run({"export", "o/run.mcap.part", "--csv"});
+  const auto rescued = run({"export", "o/run.mcap.part"});
   EXPECT_EQ(rescued.code, 0) << rescued.err;
   EXPECT_GT(std::count(rescued.out.begin(), rescued.out.end(), '\n'), 60);
   EXPECT_FALSE(exists("o/run.mcap"));
@@ -411,7 +411,7 @@ TEST_F(Program, AFullStandardOutputIsAnError) {
                                              {"algorithms"},
                                              {"keys"},
                                              {"--help"},
-                                             {"export", "o/run.mcap", "--csv"},
+                                             {"export", "o/run.mcap"},
                                              {"draw", "o/run.mcap"},
                                              {"validate", "small.toml"}}) {
     const auto outcome = finish(start(arguments, {.out = "/dev/full"}));
@@ -517,7 +517,7 @@ TEST_P(Interrupted, LeavesValidFilesOfWhatWasDone) {
   EXPECT_GT(ticks, 0U);
   const auto series = read("o/series.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(series.begin(), series.end(), '\n')), ticks + 1);
-  const auto exported = run({"export", "o/run.mcap", "--csv", "-o", "robots.csv"});
+  const auto exported = run({"export", "o/run.mcap", "-o", "robots.csv"});
   EXPECT_EQ(exported.code, 0) << exported.err;
   const auto rows = read("robots.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')),
@@ -543,7 +543,7 @@ TEST_F(Program, ALargeRunThatIsKilledAtOnceLeavesARecordingThatCanBeRead) {
   EXPECT_EQ(finish(child).code, 1000 + SIGKILL);
   ASSERT_GT(bytes(), 0U);
   EXPECT_FALSE(exists("o/run.mcap") || exists("o/run.json"));
-  const auto exported = run({"export", "o/run.mcap.part", "--csv", "-o", "robots.csv"});
+  const auto exported = run({"export", "o/run.mcap.part", "-o", "robots.csv"});
   EXPECT_TRUE(exported.code == 0 || has(exported.err, "the recording holds no frames")) << exported.err;
 }
 
@@ -562,7 +562,7 @@ TEST_F(Program, AnIgnoredHangupStaysIgnored) {
 TEST_F(Program, ExportAndDrawReadWhatRunWrote) {
   ASSERT_EQ(run({"run", "small.toml", "-q", "--out", "o"}).code, 0);
 
-  const auto table = run({"export", "o/run.mcap", "--csv", "--from", "1", "--to", "2", "--every", "5"});
+  const auto table = run({"export", "o/run.mcap", "--from", "1", "--to", "2", "--every", "5"});
   EXPECT_EQ(table.code, 0);
   EXPECT_TRUE(table.out.starts_with(
       "tick,time_s,robot,x_m,y_m,heading_rad,role,phase,parent,old_parent,alive,connected,target\n10,1.0"));

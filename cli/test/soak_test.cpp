@@ -16,7 +16,6 @@
 #include "banyan/world/faults.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/world.hpp"
-#include "commands.hpp"
 #include "plain_scenario.hpp"
 #include "sample.hpp"
 #include "soak/free_path.hpp"
@@ -26,6 +25,7 @@
 #include "soak/mission.hpp"
 #include "soak/shrink.hpp"
 #include "soak/sight.hpp"
+#include "soak/soak.hpp"
 #include "soak/start_loss.hpp"
 #include "terminal.hpp"
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// A program of commands: reads the command line, says what is wrong with it, and turns errors into exit codes.
+#pragma once
+
+#include <span>
+
+#include "commands.hpp"
+
+namespace banyan::cli {
+
+struct Command {
+  const char* name;
+  const char* purpose;  // "": not listed
+  AddCommand* add;      // called if it is the one that is meant
+};
+
+struct Program {
+  const char* name;
+  const char* purpose;
+  const char* footer;
+  std::span<const Command> commands;
+};
+
+int run_program(const Program& program, int argc, char** argv);
+
+}  // namespace banyan::cli
