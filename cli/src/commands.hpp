@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The commands of the program: each has its options, its help and its examples beside what it does.
+// The commands of the program: each has its options, its help and its examples beside what it does, or is a program.
 #pragma once
 
 #include <functional>
+#include <string>
 
 namespace CLI {
 class App;
@@ -14,6 +15,8 @@ namespace banyan::cli {
 using Action = std::function<int()>;
 // Gives a command its options and help; `action` is set when it has been read.
 using AddCommand = void(CLI::App& command, Action& action);
+// Finds the program, beside this one, that a command is. Throws CommandError.
+using FindProgram = std::string();
 
 AddCommand add_algorithms;
 AddCommand add_argos;
@@ -27,13 +30,15 @@ AddCommand add_fleet;
 AddCommand add_hub;
 AddCommand add_keys;
 AddCommand add_listen;
-AddCommand add_robot;
-AddCommand add_ros2;
 AddCommand add_run;
 AddCommand add_soak;
 AddCommand add_study;
-AddCommand add_tune;
 AddCommand add_validate;
 AddCommand add_view;
+
+FindProgram robot_program;
+FindProgram ros2_program;
+FindProgram tune_program;
+inline constexpr const char* tune_purpose = "search for better controller parameters by evolution";
 
 }  // namespace banyan::cli

@@ -2,11 +2,14 @@
 #include "program.hpp"
 
 #include <signal.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <new>
 #include <sstream>
@@ -61,27 +64,39 @@ int report_bad_usage(const CLI::App& app, const CLI::ParseError& error, const st
   return exit_usage;
 }
 
+[[noreturn]] void become(std::string program, std::span<char*> arguments) {
+  std::vector<char*> words{program.data()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  words.push_back(nullptr);
+  ::execv(program.c_str(), words.data());
+  throw CommandError(exit_lost, program + ": " + std::strerror(errno));
+}
+
 // A command has its options from the moment on at which it is read: those of all take longer than what most do.
-void add_commands(CLI::App& app, std::span<const Command> commands, Action& action) {
-  app.require_subcommand(1);
-  for (const Command& command : commands) {
+void add_commands(CLI::App& app, const Program& program, Action& action, std::span<char*> arguments) {
+  app.footer(program.footer);
+  for (const Command& command : program.commands) {
     CLI::App* added = app.add_subcommand(command.name, command.purpose);
     added->group(*command.purpose == '\0' ? "" : "Commands");
-    added->preparse_callback([added, &action, add = command.add](std::size_t) { add(*added, action); });
+    added->preparse_callback([=, &action, &command](std::size_t rest) {
+      if (command.program != nullptr) become(command.program(), arguments.last(rest));
+      command.add(*added, action);
+    });
   }
+  app.require_subcommand(1);
+  app.set_version_flag("--version",
+                       program.name + (" " + std::string(version)) + " (git " + std::string(git_id()) + ")",
+                       "print the version and exit");
 }
 
 int read_and_do(const Program& program, int argc, char** argv) {
   CLI::App app(program.purpose, program.name);
   Action action;
-  app.footer(program.footer);
   app.get_formatter()->column_width(28);
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   app.set_help_flag("-h,--help", "print this help and exit");
-  app.set_version_flag("--version",
-                       program.name + std::string(" ") + std::string(version) + " (git " + std::string(git_id()) + ")",
-                       "print the version and exit");
-  add_commands(app, program.commands, action);
+  if (program.add != nullptr) program.add(app, action);
+  else add_commands(app, program, action, {argv, argv + argc});
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   try {
     app.parse(argc, argv);
@@ -91,7 +106,7 @@ int read_and_do(const Program& program, int argc, char** argv) {
     print(text.str());
     return exit_done;
   } catch (const CLI::ParseError& error) {
-    if (arguments.empty()) {
+    if (arguments.empty() && program.add == nullptr) {
       std::fputs(app.help().c_str(), stderr);
       return exit_usage;
     }

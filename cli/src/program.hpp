@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A program of commands: reads the command line, says what is wrong with it, and turns errors into exit codes.
+// A program, of commands or a command itself: reads the command line, says what is wrong with it, and turns errors into
+// exit codes.
 #pragma once
 
 #include <span>
@@ -11,7 +12,8 @@ namespace banyan::cli {
 struct Command {
   const char* name;
   const char* purpose;  // "": not listed
-  AddCommand* add;      // called if it is the one that is meant
+  AddCommand* add;      // called if it is the one that is meant; null: it is a program of its own,
+  FindProgram* program = nullptr;
 };
 
 struct Program {
@@ -19,6 +21,7 @@ struct Program {
   const char* purpose;
   const char* footer;
   std::span<const Command> commands;
+  AddCommand* add = nullptr;  // without commands: what it does itself
 };
 
 int run_program(const Program& program, int argc, char** argv);

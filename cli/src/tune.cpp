@@ -13,6 +13,7 @@
 #include "commands.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "program.hpp"
 #include "simulate_run.hpp"
 #include "terminal.hpp"
 
@@ -198,8 +199,6 @@ int tune_command(const TuneOptions& options) {
   return exit_done;
 }
 
-}  // namespace
-
 void add_tune(CLI::App& command, Action& action) {
   auto options = std::make_shared<TuneOptions>();
   command.footer(
@@ -224,4 +223,10 @@ void add_tune(CLI::App& command, Action& action) {
   command.callback([options, &action] { action = [options] { return tune_command(*options); }; });
 }
 
+}  // namespace
 }  // namespace banyan::cli
+
+int main(int argc, char** argv) {
+  using namespace banyan::cli;
+  return run_program({"banyan tune", tune_purpose, "", {}, add_tune}, argc, argv);
+}
