@@ -15,15 +15,14 @@ namespace {
 
 }  // namespace
 
-void add_argos(CLI::App& command, Action& /*action*/) { absent(command.get_name()); }
-void add_collect(CLI::App& command, Action& /*action*/) { absent(command.get_name()); }
-void add_film(CLI::App& command, Action& /*action*/) { absent(command.get_name()); }
-void add_fleet(CLI::App& command, Action& /*action*/) { absent(command.get_name()); }
-void add_hub(CLI::App& command, Action& /*action*/) { absent(command.get_name()); }
-void add_listen(CLI::App& command, Action& /*action*/) { absent(command.get_name()); }
-void add_soak(CLI::App& command, Action& /*action*/) { absent(command.get_name()); }
-void add_study(CLI::App& command, Action& /*action*/) { absent(command.get_name()); }
-void add_view(CLI::App& command, Action& /*action*/) { absent(command.get_name()); }
+void add_argos(CLI::App& command, CommandAction& /*action*/) { absent(command.get_name()); }
+void add_collect(CLI::App& command, CommandAction& /*action*/) { absent(command.get_name()); }
+void add_film(CLI::App& command, CommandAction& /*action*/) { absent(command.get_name()); }
+void add_fleet(CLI::App& command, CommandAction& /*action*/) { absent(command.get_name()); }
+void add_hub(CLI::App& command, CommandAction& /*action*/) { absent(command.get_name()); }
+void add_listen(CLI::App& command, CommandAction& /*action*/) { absent(command.get_name()); }
+void add_study(CLI::App& command, CommandAction& /*action*/) { absent(command.get_name()); }
+void add_view(CLI::App& command, CommandAction& /*action*/) { absent(command.get_name()); }
 
 std::string robot_program() { absent("robot"); }
 std::string ros2_program() { absent("ros2"); }

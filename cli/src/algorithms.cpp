@@ -151,7 +151,7 @@ int algorithms_command(const AlgorithmsOptions& options) {
 
 }  // namespace
 
-void add_algorithms(CLI::App& command, Action& action) {
+void add_algorithms(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<AlgorithmsOptions>();
   command.footer("Examples:\n  banyan algorithms\n  banyan algorithms inwards --json");
   command.add_option("name", options->name, "only this one")->type_name("NAME");

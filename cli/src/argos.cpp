@@ -86,7 +86,7 @@ int argos_command(const ArgosOptions& options) {
 
 }  // namespace
 
-void add_argos(CLI::App& command, Action& action) {
+void add_argos(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<ArgosOptions>();
   command.footer(
       "Writes FILE.argos, which `argos3 -c` runs from any directory, and FILE.world.toml, the scenario with all\n"

@@ -293,7 +293,7 @@ int bench_command(const BenchOptions& options) {
 
 }  // namespace
 
-void add_bench(CLI::App& command, Action& action) {
+void add_bench(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<BenchOptions>();
   command.footer(
       "Layouts: dense-94-los (94 moving robots, about 85 in range of each), spread-94-los,\n"

@@ -12,9 +12,9 @@ class App;
 namespace banyan::cli {
 
 // What a command line asks for. Returns an exit code, and throws CommandError or record::FileError if something fails.
-using Action = std::function<int()>;
+using CommandAction = std::function<int()>;
 // Gives a command its options and help; `action` is set when it has been read.
-using AddCommand = void(CLI::App& command, Action& action);
+using AddCommand = void(CLI::App& command, CommandAction& action);
 // Finds the program, beside this one, that a command is. Throws CommandError.
 using FindProgram = std::string();
 
@@ -31,7 +31,6 @@ AddCommand add_hub;
 AddCommand add_keys;
 AddCommand add_listen;
 AddCommand add_run;
-AddCommand add_soak;
 AddCommand add_study;
 AddCommand add_validate;
 AddCommand add_view;

@@ -77,7 +77,7 @@ int draw_command(const DrawOptions& options) {
 
 }  // namespace
 
-void add_draw(CLI::App& command, Action& action) {
+void add_draw(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<DrawOptions>();
   command.footer(
       "Examples:\n"

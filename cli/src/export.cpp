@@ -41,7 +41,7 @@ int export_command(const ExportOptions& options) {
 
 }  // namespace
 
-void add_export(CLI::App& command, Action& action) {
+void add_export(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<ExportOptions>();
   command.footer(
       "Columns: tick, time_s, robot, x_m, y_m, heading_rad, role, phase, parent, old_parent, alive,\n"

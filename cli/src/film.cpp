@@ -265,7 +265,7 @@ CLI::Validator even_size(int least, int most) {
 
 }  // namespace
 
-void add_film(CLI::App& command, Action& action) {
+void add_film(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<FilmOptions>();
   command.footer(
       "Made by ffmpeg. MP4 plays everywhere, WebM in browsers, GIF in a README. Without --speed the film\n"

@@ -169,7 +169,7 @@ int fleet_command(const FleetOptions& options) {
 
 }  // namespace
 
-void add_fleet(CLI::App& command, Action& action) {
+void add_fleet(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<FleetOptions>();
   command.footer(
       "Runs a hub and a process per robot on this machine, over real UDP, each robot in a network namespace of its "

@@ -300,7 +300,7 @@ int hub_command(const HubOptions& options) {
 
 }  // namespace
 
-void add_hub(CLI::App& command, Action& action) {
+void add_hub(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<HubOptions>();
   command.footer(
       "Hands each robot what it can hear: packets of robots in range and in sight, with range and bearing.\n"

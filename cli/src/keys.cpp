@@ -90,7 +90,7 @@ int complete_keys_command(const std::string& word) {
 
 }  // namespace
 
-void add_keys(CLI::App& command, Action& action) {
+void add_keys(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<KeysOptions>();
   command.footer(
       "Examples:\n  banyan keys\n  banyan keys radio.\n  banyan keys --markdown > docs/scenario-keys.md\n"
@@ -102,7 +102,7 @@ void add_keys(CLI::App& command, Action& action) {
   command.callback([options, &action] { action = [options] { return keys_command(*options); }; });
 }
 
-void add_complete_keys(CLI::App& command, Action& action) {
+void add_complete_keys(CLI::App& command, CommandAction& action) {
   auto word = std::make_shared<std::string>();
   command.add_option("word", *word);
   command.callback([word, &action] { action = [word] { return complete_keys_command(*word); }; });

@@ -152,7 +152,7 @@ int listen_command(const ListenOptions& options) {
 
 }  // namespace
 
-void add_listen(CLI::App& command, Action& action) {
+void add_listen(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<ListenOptions>();
   command.footer(
       "Robots report by --tell what they do, whom they measure and where their targets are. Their places follow from\n"

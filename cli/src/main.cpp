@@ -31,7 +31,6 @@ constexpr Command commands[] = {
     {"keys", "list every key of a scenario: type, range, default, meaning", add_keys},
     {"tune", tune_purpose, nullptr, tune_program},
     {"study", "run a scenario many times over and compare", add_study},
-    {"soak", "run random missions and look for faults", add_soak},
     {"collect", "merge the shards of a study into its tables and figures", add_collect},
     {"bench", "measure the speed of the simulation on this machine", add_bench},
     {"hub", "hand each robot process what its robot can hear", add_hub},

@@ -73,7 +73,7 @@ int report_bad_usage(const CLI::App& app, const CLI::ParseError& error, const st
 }
 
 // A command has its options from the moment on at which it is read: those of all take longer than what most do.
-void add_commands(CLI::App& app, const Program& program, Action& action, std::span<char*> arguments) {
+void add_commands(CLI::App& app, const ProgramParts& program, CommandAction& action, std::span<char*> arguments) {
   app.footer(program.footer);
   for (const Command& command : program.commands) {
     CLI::App* added = app.add_subcommand(command.name, command.purpose);
@@ -89,9 +89,9 @@ void add_commands(CLI::App& app, const Program& program, Action& action, std::sp
                        "print the version and exit");
 }
 
-int read_and_do(const Program& program, int argc, char** argv) {
+int read_and_do(const ProgramParts& program, int argc, char** argv) {
   CLI::App app(program.purpose, program.name);
-  Action action;
+  CommandAction action;
   app.get_formatter()->column_width(28);
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   app.set_help_flag("-h,--help", "print this help and exit");
@@ -117,7 +117,7 @@ int read_and_do(const Program& program, int argc, char** argv) {
 
 }  // namespace
 
-int run_program(const Program& program, int argc, char** argv) {
+int run_program(const ProgramParts& program, int argc, char** argv) {
   reserve_standard_streams();
   ::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an error of write(), like a full disk
   try {

@@ -16,7 +16,7 @@ struct Command {
   FindProgram* program = nullptr;
 };
 
-struct Program {
+struct ProgramParts {
   const char* name;
   const char* purpose;
   const char* footer;
@@ -24,6 +24,6 @@ struct Program {
   AddCommand* add = nullptr;  // without commands: what it does itself
 };
 
-int run_program(const Program& program, int argc, char** argv);
+int run_program(const ProgramParts& program, int argc, char** argv);
 
 }  // namespace banyan::cli

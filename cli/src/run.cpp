@@ -172,7 +172,7 @@ int run_command(const RunOptions& options) {
 
 }  // namespace
 
-void add_run(CLI::App& command, Action& action) {
+void add_run(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<RunOptions>();
   command.footer(
       "Writes run.mcap (the recording), run.csv (one row) and run.json (the same with the whole\n"

@@ -353,7 +353,7 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
 
 }  // namespace
 
-void add_study(CLI::App& command, Action& action) {
+void add_study(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<StudyOptions>();
   command.footer(
       "Writes runs.csv (a row per run), statistics.csv, comparisons.csv, figures/ and study.json. If it is\n"
@@ -384,7 +384,7 @@ void add_study(CLI::App& command, Action& action) {
   command.callback([options, &action] { action = [options] { return study_command(*options); }; });
 }
 
-void add_collect(CLI::App& command, Action& action) {
+void add_collect(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<CollectOptions>();
   command.footer(
       "A folder in which only runs.csv was kept works, too: new statistics need no new runs.\n\n"

@@ -199,7 +199,7 @@ int tune_command(const TuneOptions& options) {
   return exit_done;
 }
 
-void add_tune(CLI::App& command, Action& action) {
+void add_tune(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<TuneOptions>();
   command.footer(
       "Writes best.toml (parameters for a scenario), tune.json, generations.csv and the figure fitness;\n"

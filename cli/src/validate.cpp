@@ -73,7 +73,7 @@ int validate_command(const ValidateOptions& options) {
 
 }  // namespace
 
-void add_validate(CLI::App& command, Action& action) {
+void add_validate(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<ValidateOptions>();
   command.footer(
       "Reports everything that is wrong at once, as file:line. The exit code is 2 if anything is.\n\n"

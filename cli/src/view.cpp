@@ -210,7 +210,7 @@ int view_command(const ViewOptions& options) {
 
 }  // namespace
 
-void add_view(CLI::App& command, Action& action) {
+void add_view(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<ViewOptions>();
   command.footer(
       "Serves the page at an address of this machine, prints it and opens the browser if there is a\n"

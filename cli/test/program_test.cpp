@@ -254,9 +254,6 @@ TEST_F(Program, RefusesBadValuesByOption) {
   bad("mission.algorithm=sideways", "mission.algorithm: must be \"outwards\"");
   expect_refused({"run", "small.toml", "--seed", "x"}, "--seed x: error: seed: must be a whole number");
   expect_refused({"run", "small.toml", "--seed", "-1"}, "seed: is -1");
-  expect_refused({"soak", "--seed", "9007199254740993", "--missions", "1", "-o", "o"}, "--seed");
-  expect_refused({"soak", "--from", "99999999999999999999", "--missions", "1", "-o", "o"}, "--from");
-  expect_refused({"soak", "--missions", "0", "-o", "o"}, "--missions");
 }
 
 TEST_F(Program, RefusesWorldsThatCannotBe) {
@@ -711,7 +708,7 @@ using Words = std::vector<std::string>;
 TEST_F(Completion, KnowsCommandsOptionsKeysValuesAndFiles) {
   EXPECT_EQ(complete(" "), (Words{"--help", "--version", "algorithms", "argos", "bench",    "collect", "draw",
                                   "export", "film",      "fleet",      "hub",   "keys",     "listen",  "robot",
-                                  "run",    "soak",      "study",      "tune",  "validate", "view"}));
+                                  "run",    "study",      "tune",  "validate", "view"}));
   EXPECT_EQ(complete(" ru"), Words{"run"});
   EXPECT_EQ(complete(" run --th"), Words{"--threads"});
   EXPECT_EQ(complete(" run small.toml --set radio.lo"), Words{"radio.loss="});

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
+// Random missions, one after the other, watched at every tick (docs/soak.md).
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
 
-namespace banyan::cli {
+namespace banyan::soak {
 
 struct SoakOptions {
   std::string file;  // a scenario to watch instead; "": random missions
@@ -20,6 +21,7 @@ struct SoakOptions {
   bool quiet = false;
 };
 
-int soak_command(const SoakOptions& options);
+// Returns an exit code (terminal.hpp).
+int run_soak(const SoakOptions& options);
 
-}  // namespace banyan::cli
+}  // namespace banyan::soak

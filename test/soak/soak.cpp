@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `banyan soak`: random missions, one after the other, watched at every tick (docs/soak.md).
+#include "soak.hpp"
+
 #include <poll.h>
 
 #include <algorithm>
@@ -11,19 +12,18 @@
 #include <map>
 #include <thread>
 
-#include "../commands.hpp"
-#include "../options.hpp"
-#include "../outputs.hpp"
-#include "../terminal.hpp"
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
 #include "isolated.hpp"
 #include "journal.hpp"
 #include "mission.hpp"
+#include "outputs.hpp"
 #include "shrink.hpp"
-#include "soak.hpp"
+#include "terminal.hpp"
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
+
+using namespace cli;
 namespace {
 
 using Steady = std::chrono::steady_clock;
@@ -143,7 +143,7 @@ class Soak {
     const bool whole = options_.whole || Isolated::has_no_end(finding);
     small.scenario = shrink(scenario, until_s, again, whole ? 0 : shrinking_runs);
     small.scenario.name = finding.kind + "-" + std::to_string(index);
-    small.scenario.description = format("banyan soak --seed %" PRIu64 ", mission %" PRIu64 "%s: ", options_.seed, index,
+    small.scenario.description = format("banyan_soak --seed %" PRIu64 ", mission %" PRIu64 "%s: ", options_.seed, index,
                                         whole ? "" : ", made smaller") +
                                  finding.text;
     const std::string path = directory_ + "/" + small.scenario.name + ".toml";
@@ -151,7 +151,7 @@ class Soak {
     out << config::config_toml(small);
     if (!out.flush()) throw CommandError(exit_lost, "cannot write " + path + ": " + std::strerror(errno));
     progress_.clear();
-    complain(format("%s%s in mission %" PRIu64 " (%s): %s; %s and %s%s:\n  banyan soak %s",
+    complain(format("%s%s in mission %" PRIu64 " (%s): %s; %s and %s%s:\n  banyan_soak %s",
                     promised ? "BROKEN PROMISE: " : "known weakness: ", finding.kind.c_str(), index,
                     text_of(traits_of(scenario)).c_str(), finding.text.c_str(),
                     plural(world::robot_count(small.scenario), "robot").c_str(),
@@ -172,7 +172,7 @@ class Soak {
         "median, 95 %%, worst:\n",
         directory_.c_str());
     text += table_of(journal_.rows());
-    text += format("Again, one alone: banyan soak --seed %" PRIu64 " --from N --missions 1 --out DIR\n", options_.seed);
+    text += format("Again, one alone: banyan_soak --seed %" PRIu64 " --from N --missions 1 --out DIR\n", options_.seed);
     print_text(text);
   }
 
@@ -207,51 +207,13 @@ int watch_file(const SoakOptions& options) {
 }
 
 }  // namespace
-}  // namespace banyan::cli::soak
 
-namespace banyan::cli {
-
-int soak_command(const SoakOptions& options) {
+int run_soak(const SoakOptions& options) {
   catch_stop_signals();
-  if (!options.file.empty()) return soak::watch_file(options);
+  if (!options.file.empty()) return watch_file(options);
   const std::string directory = options.out.empty() ? "out/soak-" + std::to_string(options.seed) : options.out;
   make_directory(directory);
-  return soak::Soak(options, directory).run();
+  return Soak(options, directory).run();
 }
 
-void add_soak(CLI::App& command, Action& action) {
-  constexpr std::int64_t most = 1'000'000'000'000;
-  auto options = std::make_shared<SoakOptions>();
-  command.footer(
-      "Runs random missions of every kind and checks, at every tick, that nothing happens that must not;\n"
-      "docs/soak.md lists what that is. A mission with a finding is reduced to a smaller one, which is written\n"
-      "beside the journal, soak.csv, and the command that runs it again is printed. The same seed and number\n"
-      "give the same mission; called again, the soak continues after the missions in its journal. With a FILE\n"
-      "it watches that scenario. The exit code is 1 if a promise of docs/soak.md was broken.\n\n"
-      "Examples:\n"
-      "  banyan soak --seconds 60\n"
-      "  banyan soak --seed 7 --missions 1000\n"
-      "  banyan soak --seed 7 --from 123 --missions 1 --out again\n"
-      "  banyan soak out/soak-7/split-123.toml");
-  command.add_option("file", options->file, "a scenario to watch, instead of random missions")->type_name("FILE");
-  command.add_option("-s,--seed", options->seed, "seed of the missions, default 1")
-      ->type_name("N")
-      ->check(whole_within(0, 9007199254740992));
-  command.add_option("--from", options->from, "first mission, default 0")->type_name("N")->check(whole_within(0, most));
-  command.add_option("--missions", options->missions, "how many; default as many as there is time for")
-      ->type_name("N")
-      ->check(whole_within(1, most));
-  command.add_option("--seconds", options->seconds, "how long; default until Ctrl-C")->type_name("S")->check(moment());
-  command.add_option("-o,--out", options->out, "directory for journal and findings, default out/soak-<seed>")
-      ->type_name("DIR")
-      ->check(a_name());
-  command.add_option("-t,--threads", options->threads, "missions at once, default all cores")
-      ->type_name("N")
-      ->check(whole_within(1, 256));
-  command.add_flag("-f,--force", options->force, "start a new journal");
-  command.add_flag("--no-shrink", options->whole, "keep missions with findings whole, instead of making them smaller");
-  command.add_flag("-q,--quiet", options->quiet, "no progress and no summary; findings only");
-  command.callback([options, &action] { action = [options] { return soak_command(*options); }; });
-}
-
-}  // namespace banyan::cli
+}  // namespace banyan::soak
