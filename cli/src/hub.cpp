@@ -223,7 +223,7 @@ int play_scenario(const HubOptions& options) {
                                        options.dead_after_s, options.bundle};
     udp::Hub hub(hub_options, robots, keys.keys(), tape.get());
     const auto silence = static_cast<std::uint32_t>(still_after_s / scenario.tick_s);
-    const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), hub, silence);
+    const AlgorithmElsewhere remote = udp::remote_algorithm(world::algorithm_of(scenario), hub, silence);
     RunOptions run = options.run;
     run.threads = 1;
     world::World world = make_world(scenario, remote, tracker.get());

@@ -129,7 +129,7 @@ int record_mission(const ListenOptions& options) {
   PageBeside page = options.view ? PageBeside(outputs, configuration.output) : PageBeside();
   try {
     const auto silence = static_cast<std::uint32_t>(told_lately_s / scenario.tick_s);
-    const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), listener, silence);
+    const AlgorithmElsewhere remote = udp::remote_algorithm(world::algorithm_of(scenario), listener, silence);
     RunOptions run = options.run;
     run.threads = 1;
     world::World world(scenario, remote, tracked_bodies(listener.chart().poses()));
