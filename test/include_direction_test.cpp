@@ -54,7 +54,7 @@ const std::map<std::string, Names, std::less<>> homes = {
     {"box2d/", {"world"}},
     {"zstd", {"record"}},
     {"toml++/", {"config"}},
-    {"CLI/", {"cli"}},
+    {"CLI/", {"cli", "hosts"}},
     {"httplib", {"cli"}},
     {"librsvg/", {"cli"}},
     {"cairo", {"cli"}},

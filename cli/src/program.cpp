@@ -46,7 +46,7 @@ std::string suggestion(const CLI::App& app, const std::vector<std::string>& argu
   return "";
 }
 
-// As banyan-robot and banyan-ros2 say it (option_table.hpp), not "At Most 1 required but received 2".
+// As banyan-robot and banyan-ros2 say it (command_line.hpp), not "At Most 1 required but received 2".
 std::string in_our_words(const CLI::ParseError& error) {
   const std::string text = error.what();
   const auto end = text.find(": At Most 1 required but received ");
