@@ -59,7 +59,7 @@ configure_file(${PROJECT_SOURCE_DIR}/cmake/banyan.pc.in ${generated}/banyan.pc @
 install(FILES ${generated}/banyan.pc DESTINATION ${pc_dir} COMPONENT development)
 
 if(TARGET banyan_cli)
-  install(TARGETS banyan_cli banyan_robot RUNTIME COMPONENT program)
+  install(TARGETS banyan_cli banyan_robot banyan_tune RUNTIME COMPONENT program)
   # Some studies name parameters that tuning found.
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios ${PROJECT_SOURCE_DIR}/studies ${PROJECT_SOURCE_DIR}/parameters ${PROJECT_SOURCE_DIR}/results
           DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program
@@ -132,6 +132,7 @@ find_program(FILE_PROGRAM file)
 mark_as_advanced(DPKG_SHLIBDEPS FILE_PROGRAM)
 if(DPKG_SHLIBDEPS AND FILE_PROGRAM)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "librsvg2-2")  # loaded by the first picture, so not seen there
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_ROS2_PACKAGE_SHLIBDEPS ON)
 else()

@@ -54,7 +54,7 @@ const std::map<std::string, Names, std::less<>> homes = {
     {"box2d/", {"world"}},
     {"zstd", {"record"}},
     {"toml++/", {"config"}},
-    {"CLI/", {"cli"}},
+    {"CLI/", {"cli", "hosts"}},
     {"httplib", {"cli"}},
     {"librsvg/", {"cli"}},
     {"cairo", {"cli"}},
@@ -79,8 +79,9 @@ const Names on_the_robot = {"algorithm", "array",    "bit",         "cmath",    
 
 // The seam's side towards hosts, which have a heap. Nothing else in controller/ includes these, and in rivals/ only
 // algorithm.cpp, which makes an Algorithm of each, and algorithm.hpp of common/.
-const Names for_hosts = {"swarm.hpp", "swarm_of.hpp", "algorithm.hpp", "algorithm_of.hpp", "printable.hpp"};
-const Names of_hosts = {"cstdio", "memory", "string", "vector", "new", "cstdlib", "sys/mman.h"};
+const Names for_hosts = {"swarm.hpp",        "swarm_of.hpp",  "algorithm.hpp",
+                         "algorithm_of.hpp", "elsewhere.hpp", "printable.hpp"};
+const Names of_hosts = {"cstdio", "functional", "memory", "string", "vector", "new", "cstdlib", "sys/mman.h"};
 bool is_for_hosts(const fs::path& file) {
   if (file.parent_path().filename() == "core") return for_hosts.contains(file.filename().string());
   return file.stem() == "algorithm" && std::find(file.begin(), file.end(), "rivals") != file.end();

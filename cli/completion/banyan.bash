@@ -51,7 +51,7 @@ _banyan() {
   if ((${#candidates[@]} == 0)) && [[ $current != -* && $previous != --set && $previous != -s ]]; then
     local suffix
     case $command in
-      run | validate | soak | hub | fleet | argos) suffix='toml|json' ;;
+      run | validate | hub | fleet | argos) suffix='toml|json' ;;
       export | draw | film) suffix='mcap' ;;
       view) suffix='mcap|part|toml|json' ;;
       *) suffix='' ;;

@@ -7,12 +7,18 @@
 
 #include "banyan/algorithms/algorithms.hpp"
 #include "commands.hpp"
+#include "options.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
 
 using namespace config;
 namespace {
+
+struct AlgorithmsOptions {
+  std::string name;  // "": all
+  bool json = false;
+};
 
 constexpr std::string_view readings[] = {"corrected", "literal"};
 
@@ -125,8 +131,6 @@ std::string table_text(const std::vector<const Algorithm*>& list) {
   return text;
 }
 
-}  // namespace
-
 int algorithms_command(const AlgorithmsOptions& options) {
   const auto list = chosen(options.name);
   if (options.json) {
@@ -143,6 +147,16 @@ int algorithms_command(const AlgorithmsOptions& options) {
       "Change a parameter by mission.parameters.<parameter>. Defaults:\n\n";
   print(text + table_text(list));
   return exit_done;
+}
+
+}  // namespace
+
+void add_algorithms(CLI::App& command, CommandAction& action) {
+  auto options = std::make_shared<AlgorithmsOptions>();
+  command.footer("Examples:\n  banyan algorithms\n  banyan algorithms inwards --json");
+  command.add_option("name", options->name, "only this one")->type_name("NAME");
+  command.add_flag("--json", options->json, "as JSON");
+  command.callback([options, &action] { action = [options] { return algorithms_command(*options); }; });
 }
 
 }  // namespace banyan::cli

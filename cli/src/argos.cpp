@@ -8,10 +8,24 @@
 #include "banyan/record/file.hpp"
 #include "banyan/version.hpp"
 #include "commands.hpp"
+#include "options.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
 namespace {
+
+// An experiment for ARGoS (docs/argos.md).
+struct ArgosOptions {
+  std::string scenario;
+  std::vector<config::Override> overrides;
+  std::string output;  // the .argos file; the world goes beside it
+  std::string out;     // directory of its results; "": beside it, without the ending
+  std::string robot = "kheperaiv";
+  std::string sight = "stock";        // or "exact"
+  std::string obstacles = "sensors";  // or "world"
+  std::string library;                // "": the one that was built with this program
+  bool force = false;
+};
 
 namespace fs = std::filesystem;
 
@@ -41,8 +55,6 @@ void refuse(const world::Scenario& scenario) {
   throw CommandError(exit_usage, "ARGoS cannot play this scenario; nothing was written");
 }
 
-}  // namespace
-
 int argos_command(const ArgosOptions& options) {
   auto loaded = config::load_configuration(options.scenario, algorithms(), options.overrides);
   print_problems(loaded.problems);
@@ -70,6 +82,38 @@ int argos_command(const ArgosOptions& options) {
              plural(world::target_positions(configuration.scenario).size(), "target") + "; run it with argos3 -z -c " +
              file.string() + "\n");
   return exit_done;
+}
+
+}  // namespace
+
+void add_argos(CLI::App& command, CommandAction& action) {
+  auto options = std::make_shared<ArgosOptions>();
+  command.footer(
+      "Writes FILE.argos, which `argos3 -c` runs from any directory, and FILE.world.toml, the scenario with all\n"
+      "changes. Robots, targets and obstacles come from the scenario; the results are those of `banyan run`.\n"
+      "docs/argos.md has the rest.\n\n"
+      "Examples:\n"
+      "  banyan argos scenarios/paper-medium.toml -o medium.argos\n"
+      "  banyan argos scenarios/paper-medium.toml --set mission.algorithm=convoy --seed 7 --sight exact -o "
+      "convoy.argos");
+  command.add_option("scenario", options->scenario, "a scenario (.toml or .json)")->required()->type_name("FILE");
+  command.add_option("-o,--output", options->output, "the experiment, FILE.argos")->required()->type_name("FILE");
+  command.add_option("--out", options->out, "directory for its results, default FILE without .argos")->type_name("DIR");
+  const auto choice = [&](const char* name, std::string& value, const std::vector<std::string>& allowed,
+                          const char* meaning) {
+    command.add_option(name, value, meaning)->check(CLI::IsMember(allowed).description(""));
+  };
+  choice("--robot", options->robot, {"kheperaiv", "foot-bot"}, "kheperaiv, the default, or foot-bot");
+  choice("--sight", options->sight, {"stock", "exact"},
+         "stock: lines of sight as ARGoS has them, the default; or exact");
+  choice("--obstacles", options->obstacles, {"sensors", "world"},
+         "how robots see them: by sensors of their own, the default, or told by the world");
+  command.add_option("--library", options->library, "libbanyan_argos, default the one built with this program")
+      ->type_name("FILE");
+  command.add_flag("-f,--force", options->force, "replace the files, and later the results, that are there");
+  add_overrides(command, options->overrides);
+  add_seed(command, options->overrides);
+  command.callback([options, &action] { action = [options] { return argos_command(*options); }; });
 }
 
 }  // namespace banyan::cli

@@ -24,6 +24,7 @@
 #include "banyan/measure/observer.hpp"
 #include "banyan/world/world.hpp"
 #include "commands.hpp"
+#include "options.hpp"
 #include "shipped.hpp"
 #include "terminal.hpp"
 
@@ -31,6 +32,14 @@ namespace banyan::cli {
 
 using namespace config;
 namespace {
+
+struct BenchOptions {
+  bool json = false;
+  int windows = 7;                // measured windows per layout
+  double window_s = 0.7;          // wall time of one; a mission is measured whole
+  std::string algorithm;          // "": each layout's own
+  std::vector<std::string> only;  // names of layouts; empty: all
+};
 
 using Steady = std::chrono::steady_clock;
 
@@ -256,8 +265,6 @@ std::vector<BenchLayout> chosen_layouts(const std::vector<std::string>& only) {
   return chosen;
 }
 
-}  // namespace
-
 int bench_command(const BenchOptions& options) {
   const auto layouts = chosen_layouts(options.only);
   auto report = nlohmann::ordered_json::object();
@@ -282,6 +289,34 @@ int bench_command(const BenchOptions& options) {
                "per CPU s: the median per second of processor time, for machines that are busy otherwise.\n",
                options.windows, options.window_s));
   return exit_done;
+}
+
+}  // namespace
+
+void add_bench(CLI::App& command, CommandAction& action) {
+  auto options = std::make_shared<BenchOptions>();
+  command.footer(
+      "Layouts: dense-94-los (94 moving robots, about 85 in range of each), spread-94-los,\n"
+      "spread-1000-los and spread-10000-los (7 neighbours each); and whole missions with convoy, mission-94\n"
+      "(paper-large, 300 s), mission-1000 (benchmark-1000, 60 s) and mission-10000 (benchmark-10000, 15 s). All with\n"
+      "line of sight, one thread, the full controller and all metrics at every tick.\n\n"
+      "Examples:\n"
+      "  banyan bench\n"
+      "  banyan bench mission-94 --algorithm inwards\n"
+      "  banyan bench --json > today.json");
+  command.add_option("layouts", options->only, "only these layouts")->type_name("LAYOUT");
+  command.add_option("--algorithm", options->algorithm, "run every layout with this one instead of the layout's own")
+      ->type_name("NAME");
+  command.add_flag("--json", options->json, "print the figures as JSON");
+  command.add_option("--windows", options->windows, "measured windows per layout, default 7")
+      ->type_name("N")
+      ->check(whole_within(1, 1000));
+  command
+      .add_option("--window", options->window_s,
+                  "length of a window, s of wall time, default 0.7; a mission is measured whole")
+      ->type_name("S")
+      ->check(number_within(0.01, 600.0));
+  command.callback([options, &action] { action = [options] { return bench_command(*options); }; });
 }
 
 }  // namespace banyan::cli

@@ -16,6 +16,7 @@
 #include "banyan/record/draw.hpp"
 #include "commands.hpp"
 #include "ffmpeg.hpp"
+#include "options.hpp"
 #include "raster.hpp"
 #include "recordings.hpp"
 #include "terminal.hpp"
@@ -23,6 +24,24 @@
 namespace banyan::cli {
 
 namespace {
+
+struct FilmOptions {
+  std::string recording;
+  std::string output;
+  int fps = 0;         // 0: 30, of a GIF 15
+  double speed = 0.0;  // seconds of the run in a second of the film; 0: chosen (film.cpp)
+  double from_s = 0.0;
+  double to_s = std::numeric_limits<double>::infinity();
+  int width = 0, height = 0;  // px, even; 0: 1280 x 720, of a GIF 720 x 450
+  double trail_s = 5.0;
+  bool links = true;
+  bool blocked = false;
+  bool ids = false;
+  bool legend = true;
+  bool dark = false;
+  bool quiet = false;
+  bool force = false;
+};
 
 constexpr double hold_s = 1.0;          // the last frame stays, so that the end can be seen
 constexpr double film_length_s = 20.0;  // what the speed is chosen for
@@ -197,8 +216,6 @@ int stopped() {
   return exit_signal + stop_signal();
 }
 
-}  // namespace
-
 int film_command(const FilmOptions& options) {
   const bool gif = film_kind(options.output) == FilmKind::gif;
   refuse_to_overwrite(options.output, options.force);
@@ -231,6 +248,58 @@ int film_command(const FilmOptions& options) {
                     static_cast<double>(frames) / progress.elapsed_s()));
   }
   return exit_done;
+}
+
+// Pixels of a film: its encoders take pairs of them.
+CLI::Validator even_size(int least, int most) {
+  return {[=](const std::string& text) {
+            int value = 0;
+            const bool fits =
+                CLI::detail::lexical_cast(text, value) && value >= least && value <= most && value % 2 == 0;
+            return fits ? std::string()
+                        : "must be an even number of " + std::to_string(least) + " to " + std::to_string(most) +
+                              ", not \"" + text + "\"";
+          },
+          ""};
+}
+
+}  // namespace
+
+void add_film(CLI::App& command, CommandAction& action) {
+  auto options = std::make_shared<FilmOptions>();
+  command.footer(
+      "Made by ffmpeg. MP4 plays everywhere, WebM in browsers, GIF in a README. Without --speed the film\n"
+      "is at most 20 s long (a GIF 12 s), 1 to 64 times as fast as the run; the last frame stays for a\n"
+      "second. The view stays the same throughout the film.\n\n"
+      "Examples:\n"
+      "  banyan film out/three-targets-convoy-1/run.mcap -o three.mp4\n"
+      "  banyan film run.mcap -o slow.mp4 --from 10 --to 20 --speed 1 --ids\n"
+      "  banyan film run.mcap -o readme.gif --width 640 --height 400 --dark");
+  command.add_option("recording", options->recording, "a run.mcap")->required()->type_name("FILE");
+  command.add_option("-o,--output", options->output, "file to write: .mp4, .webm or .gif")
+      ->required()
+      ->type_name("FILE");
+  command.add_option("--fps", options->fps, "frames a second; default 30, for a GIF 15")
+      ->type_name("N")
+      ->check(whole_within(1, 120));
+  command.add_option("--speed", options->speed, "seconds of the run in a second of the film, 0.1 to 64")
+      ->type_name("X")
+      ->check(number_within(0.1, 64.0));
+  command.add_option("--from", options->from_s, "first moment, s")->type_name("S")->check(moment());
+  command.add_option("--to", options->to_s, "last moment, s")->type_name("S")->check(moment());
+  command.add_option("--width", options->width, "width in pixels; default 1280, for a GIF 720")
+      ->type_name("PX")
+      ->check(even_size(200, 7680));
+  command.add_option("--height", options->height, "height in pixels; default 720, for a GIF 450")
+      ->type_name("PX")
+      ->check(even_size(150, 4320));
+  command.add_option("--trail", options->trail_s, "how far back trails go, s; default 5")
+      ->type_name("S")
+      ->check(moment());
+  add_look(command, *options);
+  command.add_flag("-q,--quiet", options->quiet, "no progress and no summary; warnings and errors only");
+  command.add_flag("-f,--force", options->force, "replace the file if it exists");
+  command.callback([options, &action] { action = [options] { return film_command(*options); }; });
 }
 
 }  // namespace banyan::cli

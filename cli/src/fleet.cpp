@@ -13,12 +13,29 @@
 #include "banyan/hosts/udp/key.hpp"
 #include "commands.hpp"
 #include "fleet_members.hpp"
+#include "options.hpp"
 #include "outputs.hpp"
 #include "page_beside.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
 namespace {
+
+struct FleetOptions {
+  RunOptions run;
+  bool loopback = false;  // no network namespaces
+  bool restart = true;    // robots that end unasked
+  bool view = false;      // the page beside it
+  double speed = 1.0;
+  std::size_t bundle = 1;
+  double loss = 0.0;  // from here on: of the way from robot to robot
+  double delay_ms = 0.0;
+  double jitter_ms = 0.0;
+  double duplicate = 0.0;
+  double reorder = 0.0;
+  double rate_kbit_s = 0.0;         // of each robot, either way; 0: no limit
+  std::string impairment = "auto";  // who does that: "netem", "relay"; "auto": netem where it can be had
+};
 
 // The key of a fleet that lasts as long as this process: a file without a name, which its children inherit.
 class MemoryKey {
@@ -144,12 +161,47 @@ int start_fleet(const FleetOptions& options) {
   }
 }
 
-}  // namespace
-
 int fleet_command(const FleetOptions& options) {
   ::signal(SIGPIPE, SIG_IGN);
   catch_stop_signals();
   return with_fleet_errors([&] { return start_fleet(options); });
+}
+
+}  // namespace
+
+void add_fleet(CLI::App& command, CommandAction& action) {
+  auto options = std::make_shared<FleetOptions>();
+  command.footer(
+      "Runs a hub and a process per robot on this machine, over real UDP, each robot in a network namespace of its "
+      "own\n"
+      "where the machine allows it. Robots that end by themselves are started again, and so is the hub.\n"
+      "Results are as from `banyan run`.\n\n"
+      "Examples:\n"
+      "  banyan fleet scenarios/khepera-three-targets.toml --view\n"
+      "  banyan fleet scenarios/khepera-two-targets.toml --loss 0.1 --delay-ms 20 --jitter-ms 10\n"
+      "  banyan fleet scenarios/khepera-three-targets.toml --set mission.algorithm=convoy --speed 5");
+  command.add_option("scenario", options->run.scenario, "a scenario (.toml or .json)")->required()->type_name("FILE");
+  add_results(command, options->run);
+  add_pace(command, *options);
+  const auto way = [&](const char* name, double& value, double most, const char* meaning) {
+    command.add_option(name, value, meaning)->type_name("X")->check(number_within(0.0, most));
+  };
+  way("--loss", options->loss, 0.99, "share of the packets lost from robot to robot");
+  way("--delay-ms", options->delay_ms, 10000.0, "delay of a packet from robot to robot");
+  way("--jitter-ms", options->jitter_ms, 10000.0, "how much that delay varies, uniformly, either way");
+  way("--duplicate", options->duplicate, 0.99, "share of the packets that arrive twice");
+  way("--reorder", options->reorder, 1.0, "share of the packets that are not delayed and so overtake others");
+  way("--rate-kbit", options->rate_kbit_s, 1e9, "kbit/s for each robot, in each direction; default 0: no limit");
+  command
+      .add_option(
+          "--impairment", options->impairment,
+          "who does that: netem, the kernel, or relay, a process of ours; default auto: netem where it can be had")
+      ->type_name("WHO")
+      ->check(CLI::IsMember({"auto", "netem", "relay"}).description(""));
+  add_page_beside(command, *options);
+  command.add_flag("--loopback", options->loopback, "no network namespaces: all share the loopback device");
+  command.add_flag("!--no-restart", options->restart, "do not restart robots that have ended");
+  command.callback([options, &action] { action = [options] { return fleet_command(*options); }; });
 }
 
 }  // namespace banyan::cli

@@ -9,6 +9,7 @@
 #include "banyan/hosts/udp/key.hpp"
 #include "banyan/hosts/udp/socket.hpp"
 #include "banyan/hosts/udp/tape.hpp"
+#include "commands.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
@@ -58,6 +59,8 @@ std::string ros2_program() {
                         "install cyclonedds-dev and cyclonedds-tools, configure again and build the target "
                         "banyan_ros2, or call ./banyan");
 }
+
+std::string tune_program() { return program_beside("banyan-tune", "build the target banyan_tune, or call ./banyan"); }
 
 int with_fleet_errors(const std::function<int()>& command) {
   try {

@@ -18,10 +18,6 @@ namespace banyan::cli {
 // The options of robot i, without hub and key.
 [[nodiscard]] udp::RobotOptions robot_options(const world::Scenario& scenario, std::size_t i);
 
-// banyan-robot, beside this program. Throws CommandError.
-[[nodiscard]] std::string robot_program();
-// banyan-ros2, likewise.
-[[nodiscard]] std::string ros2_program();
 // This program.
 [[nodiscard]] std::string own_program();
 

@@ -22,12 +22,32 @@
 #include "commands.hpp"
 #include "fleet_members.hpp"
 #include "keep_run.hpp"
+#include "options.hpp"
 #include "page_beside.hpp"
 #include "terminal.hpp"
 #include "tracked_bodies.hpp"
 
 namespace banyan::cli {
 namespace {
+
+// Of a scenario whose robots are processes (docs/robots.md).
+struct HubOptions {
+  RunOptions run;
+  std::string listen = "0.0.0.0:4600";
+  std::string key_file;
+  std::string poses;          // ADDRESS:PORT at which a tracker's poses arrive; "": bodies are simulated
+  std::string tape;           // file; "": none
+  bool resume = false;        // go on where the tape ends
+  double wait_s = 10.0;       // for robots, before the mission begins
+  double dead_after_s = 5.0;  // a robot that is silent for so long counts as dead
+  double speed = 1.0;
+  std::size_t bundle = 1;     // packets heard per datagram
+  bool view = false;          // the page beside it
+  std::string impairment;     // a line of the summary: what makes the radio bad, and how
+  bool print_robots = false;  // their command lines, instead
+  std::string new_key;        // make this file, instead
+  std::string stop;           // ADDRESS:PORT[,...] of robots without a hub: stop them, instead
+};
 
 constexpr double blind_after_s = 0.3;  // without poses
 constexpr double still_after_s = 0.5;  // a robot that is not heard for so long stands in the world, too
@@ -203,7 +223,7 @@ int play_scenario(const HubOptions& options) {
                                        options.dead_after_s, options.bundle};
     udp::Hub hub(hub_options, robots, keys.keys(), tape.get());
     const auto silence = static_cast<std::uint32_t>(still_after_s / scenario.tick_s);
-    const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), hub, silence);
+    const AlgorithmElsewhere remote = udp::remote_algorithm(world::algorithm_of(scenario), hub, silence);
     RunOptions run = options.run;
     run.threads = 1;
     world::World world = make_world(scenario, remote, tracker.get());
@@ -263,16 +283,6 @@ int print_robots(const HubOptions& options) {
   return exit_done;
 }
 
-[[noreturn]] void become(std::string program, std::vector<std::string> arguments) {
-  std::vector<char*> words{program.data()};
-  for (std::string& argument : arguments) words.push_back(argument.data());
-  words.push_back(nullptr);
-  ::execv(program.c_str(), words.data());
-  throw CommandError(exit_lost, program + ": " + std::strerror(errno));
-}
-
-}  // namespace
-
 int hub_command(const HubOptions& options) {
   return with_fleet_errors([&] {
     if (!options.new_key.empty()) {
@@ -288,8 +298,39 @@ int hub_command(const HubOptions& options) {
   });
 }
 
-int robot_command(const std::vector<std::string>& arguments) { become(robot_program(), arguments); }
+}  // namespace
 
-int ros2_command(const std::vector<std::string>& arguments) { become(ros2_program(), arguments); }
+void add_hub(CLI::App& command, CommandAction& action) {
+  auto options = std::make_shared<HubOptions>();
+  command.footer(
+      "Hands each robot what it can hear: packets of robots in range and in sight, with range and bearing.\n"
+      "Bodies move in a simulated world as the robots command. Results are as from `banyan run`;\n"
+      "docs/robots.md has the rest.\n\n"
+      "Examples:\n"
+      "  banyan hub --new-key fleet.key\n"
+      "  banyan hub scenarios/khepera-three-targets.toml --key fleet.key --listen 192.168.1.10:4600 --print-robots\n"
+      "  banyan hub scenarios/khepera-three-targets.toml --key fleet.key --listen 192.168.1.10:4600");
+  command.add_option("scenario", options->run.scenario, "a scenario (.toml or .json)")->type_name("FILE");
+  command.add_option("--key", options->key_file, "the fleet's keys; only their owner may read them")->type_name("FILE");
+  command.add_option("--new-key", options->new_key, "make a key file and exit")->type_name("FILE");
+  command
+      .add_option("--stop", options->stop,
+                  "stop robots that have no hub, at these addresses or at a broadcast, and exit")
+      ->type_name("ADDRESSES");
+  command.add_option("--listen", options->listen, "where robots find it, default 0.0.0.0:4600")
+      ->type_name("ADDRESS:PORT");
+  command.add_flag("--print-robots", options->print_robots, "print the command line of each robot and exit");
+  add_patience(command, *options);
+  command.add_option("--poses", options->poses, "take poses from a tracker here, instead of simulating bodies")
+      ->type_name("ADDRESS:PORT");
+  command.add_option("--tape", options->tape, "keep here what robots say and the tracker sees, to resume from")
+      ->type_name("FILE");
+  command.add_flag("--resume", options->resume, "go on where the tape ends");
+  command.add_option("--impairment", options->impairment, "for the summary")->group("");  // a fleet says it
+  add_results(command, options->run);
+  add_pace(command, *options);
+  add_page_beside(command, *options);
+  command.callback([options, &action] { action = [options] { return hub_command(*options); }; });
+}
 
 }  // namespace banyan::cli

@@ -7,7 +7,7 @@
 
 #include "banyan/controller/core/function_ref.hpp"
 #include "banyan/record/simulation.hpp"
-#include "commands.hpp"
+#include "options.hpp"
 #include "outputs.hpp"
 
 namespace banyan::cli {

@@ -8,12 +8,24 @@
 #include "commands.hpp"
 #include "fleet_members.hpp"
 #include "keep_run.hpp"
+#include "options.hpp"
 #include "page_beside.hpp"
 #include "terminal.hpp"
 #include "tracked_bodies.hpp"
 
 namespace banyan::cli {
 namespace {
+
+// Of a scenario whose robots are processes without a hub.
+struct ListenOptions {
+  RunOptions run;
+  std::string listen = "0.0.0.0:4700";
+  std::string key_file;
+  double wait_s = 10.0;  // for robots, before the recording begins
+  double dead_after_s = 5.0;
+  double speed = 1.0;
+  bool view = false;  // the page beside it
+};
 
 constexpr double moved_m = 0.05;  // by less a target has not moved: it is measured
 constexpr double told_lately_s = 0.5;
@@ -117,7 +129,7 @@ int record_mission(const ListenOptions& options) {
   PageBeside page = options.view ? PageBeside(outputs, configuration.output) : PageBeside();
   try {
     const auto silence = static_cast<std::uint32_t>(told_lately_s / scenario.tick_s);
-    const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), listener, silence);
+    const AlgorithmElsewhere remote = udp::remote_algorithm(world::algorithm_of(scenario), listener, silence);
     RunOptions run = options.run;
     run.threads = 1;
     world::World world(scenario, remote, tracked_bodies(listener.chart().poses()));
@@ -132,12 +144,35 @@ int record_mission(const ListenOptions& options) {
   }
 }
 
-}  // namespace
-
 int listen_command(const ListenOptions& options) {
   ::signal(SIGPIPE, SIG_IGN);
   catch_stop_signals();
   return with_fleet_errors([&] { return record_mission(options); });
+}
+
+}  // namespace
+
+void add_listen(CLI::App& command, CommandAction& action) {
+  auto options = std::make_shared<ListenOptions>();
+  command.footer(
+      "Robots report by --tell what they do, whom they measure and where their targets are. Their places follow from\n"
+      "that, in a frame of their own. The number of robots, radio and bodies are as in the scenario.\n"
+      "Results are as from `banyan run`.\n\n"
+      "Examples:\n"
+      "  banyan listen scenarios/khepera-three-targets.toml --key fleet.key --listen 192.168.1.10:4700 --view");
+  command.add_option("scenario", options->run.scenario, "a scenario (.toml or .json)")->required()->type_name("FILE");
+  command.add_option("--key", options->key_file, "the fleet's keys; only their owner may read them")
+      ->required()
+      ->type_name("FILE");
+  command.add_option("--listen", options->listen, "where robots report to, their --tell; default 0.0.0.0:4700")
+      ->type_name("ADDRESS:PORT");
+  add_patience(command, *options);
+  command.add_option("--speed", options->speed, "speed of its clock, default 1; for tests")
+      ->type_name("X")
+      ->check(number_within(0.01, 100.0));
+  add_results(command, options->run);
+  add_page_beside(command, *options);
+  command.callback([options, &action] { action = [options] { return listen_command(*options); }; });
 }
 
 }  // namespace banyan::cli

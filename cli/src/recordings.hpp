@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "banyan/record/file.hpp"
 #include "banyan/record/recording.hpp"
 
 namespace banyan::cli {
@@ -18,5 +19,6 @@ void tell_further_warnings(const record::Recording& recording, const std::string
 
 // Throws CommandError (exit_usage) if `output` is a file and not `force`, or can never be one.
 void refuse_to_overwrite(const std::string& output, bool force);
+[[nodiscard]] record::Existing existing(bool force);
 
 }  // namespace banyan::cli

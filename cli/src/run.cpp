@@ -15,6 +15,7 @@
 #include "commands.hpp"
 #include "keep_run.hpp"
 #include "link.hpp"
+#include "options.hpp"
 #include "outputs.hpp"
 #include "summary.hpp"
 #include "terminal.hpp"
@@ -151,6 +152,8 @@ int keep_run(const Configuration& configuration, const RunOutputs& outputs, cons
   return exit_signal + stop_signal();
 }
 
+namespace {
+
 int run_command(const RunOptions& options) {
   const auto loaded = load_or_leave(options);
   if (!loaded.ok()) return exit_usage;
@@ -165,6 +168,41 @@ int run_command(const RunOptions& options) {
     outputs.abandon();
     throw;
   }
+}
+
+}  // namespace
+
+void add_run(CLI::App& command, CommandAction& action) {
+  auto options = std::make_shared<RunOptions>();
+  command.footer(
+      "Writes run.mcap (the recording), run.csv (one row) and run.json (the same with the whole\n"
+      "configuration; `banyan run out/.../run.json` runs it again).\n\n"
+      "Examples:\n"
+      "  banyan run scenarios/three-targets.toml\n"
+      "  banyan run scenarios/three-targets.toml --set mission.algorithm=inwards --set radio.loss=0.3\n"
+      "  banyan run scenarios/paper-large.toml --seed 7 --out results/large-7 --series\n"
+      "  banyan run scenarios/swarm-10000.toml --no-record --json > result.json\n\n"
+      "`banyan keys` lists what can be set, `banyan algorithms` the algorithms and their parameters.");
+  command
+      .add_option("scenario", options->scenario,
+                  "a scenario (.toml or .json), an earlier run.json, a link of the page, - for standard input")
+      ->required()
+      ->type_name("FILE");
+  add_results(command, *options);
+  command
+      .add_option_function<std::string>(
+          "--record-every",
+          [options](const std::string& n) {
+            options->overrides.push_back({"output.record_every=" + n, "--record-every " + n});
+          },
+          "record the robots at every Nth tick only")
+      ->type_name("N");
+  command
+      .add_option("-t,--threads", options->threads,
+                  "threads within the run, default 1, or all cores from 500 robots on; never changes the result")
+      ->type_name("N")
+      ->check(whole_within(1, 256));
+  command.callback([options, &action] { action = [options] { return run_command(*options); }; });
 }
 
 }  // namespace banyan::cli

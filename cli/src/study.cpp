@@ -20,6 +20,7 @@
 #include "banyan/study/workers.hpp"
 #include "banyan/version.hpp"
 #include "commands.hpp"
+#include "options.hpp"
 #include "outputs.hpp"
 #include "sbatch.hpp"
 #include "simulate_run.hpp"
@@ -30,6 +31,12 @@ namespace banyan::cli {
 
 using namespace study;
 namespace {
+
+struct CollectOptions {
+  StudyOptions study;
+  std::vector<std::string> from;  // more folders with shards
+  bool partial = false;
+};
 
 constexpr double ask_above = 100'000;   // runs
 constexpr double at_most = 10'000'000;  // a plan is held in memory
@@ -272,8 +279,6 @@ void keep_collected(const Prepared& prepared, const Gathered& all, const Folder&
   journal.sync();
 }
 
-}  // namespace
-
 int study_command(const StudyOptions& options) {
   Processes processes;
   if (processes.rank() > 0) {
@@ -330,6 +335,67 @@ int collect_command(const CollectOptions& options) {
   make_directory(folder.path + "/journal");
   if (!options.from.empty() || table_kept) keep_collected(prepared, gathered, folder);
   return finish(prepared, gathered, folder, of.quiet);
+}
+
+// What `study` and `collect` have in common.
+void add_study_options(CLI::App& command, StudyOptions& options) {
+  command.add_option("study", options.file, "a study (.toml or .json)")->required()->type_name("FILE");
+  add_overrides(command, options.overrides);
+  command.add_option("-o,--out", options.out, "directory for everything, default out/<name>")
+      ->type_name("DIR")
+      ->check(a_name());
+  command.add_flag("--extend", options.extend,
+                   "the study has changed since it finished: keep the runs that both versions have");
+  command.add_flag("--mix-versions", options.mix_versions, "continue with results of another version of banyan");
+  command.add_flag("-y,--yes", options.yes, "do not ask, however many runs there are");
+  command.add_flag("-q,--quiet", options.quiet, "no plan, no progress, no summary; warnings and errors only");
+}
+
+}  // namespace
+
+void add_study(CLI::App& command, CommandAction& action) {
+  auto options = std::make_shared<StudyOptions>();
+  command.footer(
+      "Writes runs.csv (a row per run), statistics.csv, comparisons.csv, figures/ and study.json. If it is\n"
+      "stopped, the same command resumes there. docs/studies.md describes the file.\n\n"
+      "Examples:\n"
+      "  banyan study studies/first.toml --dry-run\n"
+      "  banyan study studies/first.toml\n"
+      "  mpirun -n 64 banyan study studies/paper.toml\n"
+      "  seq 8 | parallel banyan study studies/paper.toml --shard {}/8\n"
+      "  banyan study studies/paper.toml --sbatch paper.sbatch --shards 50");
+  add_study_options(command, *options);
+  command.add_flag("-f,--force", options->force, "delete the results that are there and start over");
+  command.add_flag("-n,--dry-run", options->dry_run, "print the plan and an estimate of its time, and start nothing");
+  command.add_flag("--retry", options->retry, "also run failed runs again");
+  command
+      .add_option("-t,--threads", options->threads,
+                  "runs at once, default all cores; under mpirun per process, default 1")
+      ->type_name("N")
+      ->check(whole_within(1, 256));
+  command.add_option("--shard", options->shard, "do the i-th of n equal parts only; `banyan collect` merges them")
+      ->type_name("I/N");
+  command
+      .add_option("--sbatch", options->sbatch, "write a job array for Slurm to this file (-: standard output) and exit")
+      ->type_name("FILE");
+  command.add_option("--shards", options->shards, "tasks of that array, default 16")
+      ->type_name("N")
+      ->check(whole_within(1, 100000));
+  command.callback([options, &action] { action = [options] { return study_command(*options); }; });
+}
+
+void add_collect(CLI::App& command, CommandAction& action) {
+  auto options = std::make_shared<CollectOptions>();
+  command.footer(
+      "A folder in which only runs.csv was kept works, too: new statistics need no new runs.\n\n"
+      "Examples:\n"
+      "  banyan collect studies/paper.toml\n"
+      "  banyan collect studies/paper.toml --out all shards-of-a shards-of-b");
+  add_study_options(command, options->study);
+  command.add_flag("-f,--force", options->study.force, "replace tables that are there, of whatever study they are");
+  command.add_option("folders", options->from, "more folders with results of this study")->type_name("DIR");
+  command.add_flag("--partial", options->partial, "make the tables even if runs are missing");
+  command.callback([options, &action] { action = [options] { return collect_command(*options); }; });
 }
 
 }  // namespace banyan::cli

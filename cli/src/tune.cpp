@@ -11,7 +11,9 @@
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/study/tune.hpp"
 #include "commands.hpp"
+#include "options.hpp"
 #include "outputs.hpp"
+#include "program.hpp"
 #include "simulate_run.hpp"
 #include "terminal.hpp"
 
@@ -20,6 +22,15 @@ namespace banyan::cli {
 using config::number_text;
 using study::TunePlan;
 namespace {
+
+struct TuneOptions {
+  std::string file;
+  std::string out;  // "": out/<name>
+  int threads = 0;  // 0: all cores; under mpirun 1 per process
+  bool force = false;
+  bool quiet = false;
+  bool dry_run = false;
+};
 
 namespace fs = std::filesystem;
 
@@ -155,8 +166,6 @@ study::TuneResult search(const TunePlan& plan, study::Workers& workers, const st
   } catch (const study::TuneError& e) { throw CommandError(exit_lost, e.what()); }
 }
 
-}  // namespace
-
 int tune_command(const TuneOptions& options) {
   study::Processes processes;
   const int threads = threads_of(options, processes);
@@ -190,4 +199,34 @@ int tune_command(const TuneOptions& options) {
   return exit_done;
 }
 
+void add_tune(CLI::App& command, CommandAction& action) {
+  auto options = std::make_shared<TuneOptions>();
+  command.footer(
+      "Writes best.toml (parameters for a scenario), tune.json, generations.csv and the figure fitness;\n"
+      "nsga2 also front.csv. If it is stopped, the same command resumes there and ends with the same\n"
+      "result. docs/tuning.md describes the file. Over several machines: mpirun banyan tune FILE.\n\n"
+      "Examples:\n"
+      "  banyan tune studies/tune-outwards-small.toml --dry-run\n"
+      "  banyan tune studies/tune-outwards-small.toml --out results/tuned");
+  command.add_option("file", options->file, "a tune file (.toml or .json)")->required()->type_name("FILE");
+  command.add_option("-o,--out", options->out, "directory for the results, default out/<name>")
+      ->type_name("DIR")
+      ->check(a_name());
+  command
+      .add_option("-t,--threads", options->threads,
+                  "runs at once, default all cores; under mpirun per process, default 1; never changes the result")
+      ->type_name("N")
+      ->check(whole_within(1, 256));
+  command.add_flag("-f,--force", options->force, "start over, replacing what is there");
+  command.add_flag("-q,--quiet", options->quiet, "no progress and no summary; warnings and errors only");
+  command.add_flag("-n,--dry-run", options->dry_run, "say what would be done, and do nothing");
+  command.callback([options, &action] { action = [options] { return tune_command(*options); }; });
+}
+
+}  // namespace
 }  // namespace banyan::cli
+
+int main(int argc, char** argv) {
+  using namespace banyan::cli;
+  return run_program({"banyan tune", tune_purpose, "", {}, add_tune}, argc, argv);
+}

@@ -5,12 +5,21 @@
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/controller/core/printable.hpp"
 #include "commands.hpp"
+#include "options.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
 
 using namespace config;
 namespace {
+
+struct ValidateOptions {
+  std::vector<std::string> files;
+  std::vector<config::Override> overrides;
+  bool json = false;
+  bool quiet = false;
+  std::string show;  // "toml" or "json": print the complete effective configuration
+};
 
 std::string count_of(std::size_t n, const std::string& noun) {
   return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
@@ -41,8 +50,6 @@ nlohmann::ordered_json json_of(const std::string& file, const Loaded& loaded) {
   return entry;
 }
 
-}  // namespace
-
 int validate_command(const ValidateOptions& options) {
   bool all_ok = true;
   auto report = nlohmann::ordered_json::array();
@@ -62,6 +69,26 @@ int validate_command(const ValidateOptions& options) {
   else print_problems(problems);
   print(text);
   return all_ok ? exit_done : exit_usage;
+}
+
+}  // namespace
+
+void add_validate(CLI::App& command, CommandAction& action) {
+  auto options = std::make_shared<ValidateOptions>();
+  command.footer(
+      "Reports everything that is wrong at once, as file:line. The exit code is 2 if anything is.\n\n"
+      "Examples:\n"
+      "  banyan validate scenarios/*.toml\n"
+      "  banyan validate my.toml --set swarm.robots=12 --show toml");
+  command.add_option("files", options->files, "scenarios")->required()->type_name("FILE");
+  add_overrides(command, options->overrides);
+  add_seed(command, options->overrides);
+  command.add_option("--show", options->show, "print the complete configuration, defaults included")
+      ->type_name("toml|json")
+      ->check(CLI::IsMember({"toml", "json"}).description(""));
+  command.add_flag("--json", options->json, "print the report as JSON");
+  command.add_flag("-q,--quiet", options->quiet, "say nothing about scenarios that are fine");
+  command.callback([options, &action] { action = [options] { return validate_command(*options); }; });
 }
 
 }  // namespace banyan::cli

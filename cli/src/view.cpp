@@ -18,6 +18,7 @@
 #include "banyan/record/recording.hpp"
 #include "commands.hpp"
 #include "link.hpp"
+#include "options.hpp"
 #include "page_server.hpp"
 #include "shipped.hpp"
 #include "terminal.hpp"
@@ -26,6 +27,16 @@ namespace banyan::cli {
 
 using namespace config;
 namespace {
+
+struct ViewOptions {
+  std::string file;                         // a recording or a scenario; "": neither
+  std::vector<config::Override> overrides;  // of the scenario
+  std::string page;                         // folder; "": BANYAN_PAGE, else where it was installed
+  std::string scenarios;                    // folder; "": where they were when this was built, or were installed
+  int port = 0;                             // 0: any that is free
+  bool open = true;                         // in a browser
+  bool wait = false;                        // until the recording has begun
+};
 
 namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
@@ -161,8 +172,6 @@ void find_page(const ViewOptions& options, PageContent& content) {
   content.scenarios = scenarios_folder(options);
 }
 
-}  // namespace
-
 int view_command(const ViewOptions& options) {
   // A misspelt name is told before a page that is missing; but nobody shall wait for a recording and then have no page.
   PageContent content;
@@ -197,6 +206,37 @@ int view_command(const ViewOptions& options) {
   if (options.open) open_browser(address);
   while (stop_signal() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   return exit_signal + stop_signal();
+}
+
+}  // namespace
+
+void add_view(CLI::App& command, CommandAction& action) {
+  auto options = std::make_shared<ViewOptions>();
+  command.footer(
+      "Serves the page at an address of this machine, prints it and opens the browser if there is a\n"
+      "desktop. Only users of this machine can reach it. Ctrl-C ends it.\n"
+      "A recording that is still being written is shown live.\n\n"
+      "Examples:\n"
+      "  banyan view out/three-targets-convoy-1/run.mcap\n"
+      "  banyan view --wait out/lab/run.mcap          (live, while it is written)\n"
+      "  banyan view scenarios/three-targets.toml --set radio.loss=0.3\n"
+      "  banyan view");
+  command
+      .add_option("file", options->file,
+                  "a run.mcap, a scenario to be run in the page, or a link; none: a choice of scenarios")
+      ->type_name("FILE");
+  add_overrides(command, options->overrides);
+  add_seed(command, options->overrides);
+  command.add_option("--port", options->port, "port on this machine; default any that is free")
+      ->type_name("N")
+      ->check(whole_within(0, 65535));
+  command.add_flag("!--no-open", options->open, "only print the address");
+  command.add_flag("--wait", options->wait, "wait for a recording that has not begun yet");
+  command.add_option("--page", options->page, "the built page; default BANYAN_PAGE, or where it was installed")
+      ->type_name("DIR");
+  command.add_option("--scenarios", options->scenarios, "what the page offers to run; default Banyan's own")
+      ->type_name("DIR");
+  command.callback([options, &action] { action = [options] { return view_command(*options); }; });
 }
 
 }  // namespace banyan::cli

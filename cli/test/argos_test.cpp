@@ -116,7 +116,7 @@ TEST_F(InArgos, AMissionLeavesItsResultsInOneFolderFromWhereverItIsStarted) {
   EXPECT_EQ(files(),
             (std::vector<std::string>{"stderr.txt", "stdout.txt", "there/three.argos", "there/three.world.toml",
                                       "there/three/run.csv", "there/three/run.json", "there/three/run.mcap"}));
-  EXPECT_EQ(run({"export", "there/three/run.mcap", "--csv", "-o", "robots.csv"}).code, 0);
+  EXPECT_EQ(run({"export", "there/three/run.mcap", "-o", "robots.csv"}).code, 0);
   EXPECT_GT(fs::file_size(home_ / "robots.csv"), 10000U);
   // The same mission in our world takes as long, to a twentieth.
   ASSERT_EQ(run({"run", scenario("three-targets"), "--out", "ours", "-q"}).code, 0);

@@ -64,7 +64,7 @@ class NearbyRobots final : public udp::RemoteLink {
 };
 
 record::RunEnd played(const world::Scenario& scenario, NearbyRobots& robots) {
-  const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), robots, 5);
+  const AlgorithmElsewhere remote = udp::remote_algorithm(world::algorithm_of(scenario), robots, 5);
   record::Sinks nobody_listens;
   world::Executor alone(1);
   return record::run_scenario(world::World(scenario, remote), nobody_listens, alone);
@@ -123,7 +123,7 @@ TEST(RemoteSwarm, TargetsThatAreGivenUpAndDeathsReachTheRobots) {
   die.action = world::Die{8};
   scenario.events = {give_up, die};
   NearbyRobots robots(scenario, world::robot_count(scenario));
-  const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), robots, 5);
+  const AlgorithmElsewhere remote = udp::remote_algorithm(world::algorithm_of(scenario), robots, 5);
   world::World world(scenario, remote);
   while (world.time_s() < 40.0) world.step();
   EXPECT_EQ(robots.dismissed, (std::set<std::size_t>{8}));
@@ -135,7 +135,7 @@ TEST(RemoteSwarm, TargetsThatAreGivenUpAndDeathsReachTheRobots) {
 TEST(RemoteSwarm, ACopyOfItsWorldIsOfTheSameHashAndTalksToNobody) {
   const world::Scenario scenario = configuration().scenario;
   NearbyRobots robots(scenario, world::robot_count(scenario));
-  const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), robots, 5);
+  const AlgorithmElsewhere remote = udp::remote_algorithm(world::algorithm_of(scenario), robots, 5);
   world::World world(scenario, remote);
   for (int k = 0; k < 20; ++k) world.step();
   world::World copy = world;

@@ -254,9 +254,6 @@ TEST_F(Program, RefusesBadValuesByOption) {
   bad("mission.algorithm=sideways", "mission.algorithm: must be \"outwards\"");
   expect_refused({"run", "small.toml", "--seed", "x"}, "--seed x: error: seed: must be a whole number");
   expect_refused({"run", "small.toml", "--seed", "-1"}, "seed: is -1");
-  expect_refused({"soak", "--seed", "9007199254740993", "--missions", "1", "-o", "o"}, "--seed");
-  expect_refused({"soak", "--from", "99999999999999999999", "--missions", "1", "-o", "o"}, "--from");
-  expect_refused({"soak", "--missions", "0", "-o", "o"}, "--missions");
 }
 
 TEST_F(Program, RefusesWorldsThatCannotBe) {
@@ -322,7 +319,7 @@ TEST_F(Program, NoControlCharacterReachesTheTerminal) {
                                                            {"run", "#scenario=three-targets&set=%1b[2J=1"},
                                                            {"run", "small.toml", "--set", evil + "=1"},
                                                            {"run", "small.toml", "--" + evil},
-                                                           {"export", evil, "--csv"},
+                                                           {"export", evil},
                                                            {"study", evil},
                                                            {evil}}) {
     const auto outcome = run(arguments);
@@ -370,7 +367,7 @@ TEST_F(Program, AFullDiskIsSaidAndCostsNeitherTheRunNorTheOtherFiles) {
   EXPECT_EQ(outcome.code, 1) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "o/run.mcap: cannot write: File too large")) << outcome.err;  // what EFBIG is called
   EXPECT_TRUE(has(outcome.err, "what was recorded until then is in o/run.mcap.part")) << outcome.err;
-  const auto rescued = run({"export", "o/run.mcap.part", "--csv"});
+  const auto rescued = run({"export", "o/run.mcap.part"});
   EXPECT_EQ(rescued.code, 0) << rescued.err;
   EXPECT_GT(std::count(rescued.out.begin(), rescued.out.end(), '\n'), 60);
   EXPECT_FALSE(exists("o/run.mcap"));
@@ -411,7 +408,7 @@ TEST_F(Program, AFullStandardOutputIsAnError) {
                                              {"algorithms"},
                                              {"keys"},
                                              {"--help"},
-                                             {"export", "o/run.mcap", "--csv"},
+                                             {"export", "o/run.mcap"},
                                              {"draw", "o/run.mcap"},
                                              {"validate", "small.toml"}}) {
     const auto outcome = finish(start(arguments, {.out = "/dev/full"}));
@@ -517,7 +514,7 @@ TEST_P(Interrupted, LeavesValidFilesOfWhatWasDone) {
   EXPECT_GT(ticks, 0U);
   const auto series = read("o/series.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(series.begin(), series.end(), '\n')), ticks + 1);
-  const auto exported = run({"export", "o/run.mcap", "--csv", "-o", "robots.csv"});
+  const auto exported = run({"export", "o/run.mcap", "-o", "robots.csv"});
   EXPECT_EQ(exported.code, 0) << exported.err;
   const auto rows = read("robots.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')),
@@ -543,7 +540,7 @@ TEST_F(Program, ALargeRunThatIsKilledAtOnceLeavesARecordingThatCanBeRead) {
   EXPECT_EQ(finish(child).code, 1000 + SIGKILL);
   ASSERT_GT(bytes(), 0U);
   EXPECT_FALSE(exists("o/run.mcap") || exists("o/run.json"));
-  const auto exported = run({"export", "o/run.mcap.part", "--csv", "-o", "robots.csv"});
+  const auto exported = run({"export", "o/run.mcap.part", "-o", "robots.csv"});
   EXPECT_TRUE(exported.code == 0 || has(exported.err, "the recording holds no frames")) << exported.err;
 }
 
@@ -562,7 +559,7 @@ TEST_F(Program, AnIgnoredHangupStaysIgnored) {
 TEST_F(Program, ExportAndDrawReadWhatRunWrote) {
   ASSERT_EQ(run({"run", "small.toml", "-q", "--out", "o"}).code, 0);
 
-  const auto table = run({"export", "o/run.mcap", "--csv", "--from", "1", "--to", "2", "--every", "5"});
+  const auto table = run({"export", "o/run.mcap", "--from", "1", "--to", "2", "--every", "5"});
   EXPECT_EQ(table.code, 0);
   EXPECT_TRUE(table.out.starts_with(
       "tick,time_s,robot,x_m,y_m,heading_rad,role,phase,parent,old_parent,alive,connected,target\n10,1.0"));
@@ -711,7 +708,7 @@ using Words = std::vector<std::string>;
 TEST_F(Completion, KnowsCommandsOptionsKeysValuesAndFiles) {
   EXPECT_EQ(complete(" "), (Words{"--help", "--version", "algorithms", "argos", "bench",    "collect", "draw",
                                   "export", "film",      "fleet",      "hub",   "keys",     "listen",  "robot",
-                                  "run",    "soak",      "study",      "tune",  "validate", "view"}));
+                                  "run",    "study",      "tune",  "validate", "view"}));
   EXPECT_EQ(complete(" ru"), Words{"run"});
   EXPECT_EQ(complete(" run --th"), Words{"--threads"});
   EXPECT_EQ(complete(" run small.toml --set radio.lo"), Words{"radio.loss="});

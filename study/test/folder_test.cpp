@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "banyan/controller/core/elsewhere.hpp"
 #include "planned_study.hpp"
 
 namespace banyan::study {
@@ -13,11 +14,10 @@ namespace {
 class Changeable final : public AlgorithmElsewhere {
  public:
   explicit Changeable(std::string fingerprint)
-      : AlgorithmElsewhere(*algorithms().find("convoy")), fingerprint_(std::move(fingerprint)) {}
+      : AlgorithmElsewhere(*algorithms().find("convoy"),
+                           [](std::unique_ptr<Swarm> swarm, const Setup&, std::span<const Member>) { return swarm; }),
+        fingerprint_(std::move(fingerprint)) {}
   [[nodiscard]] std::string_view fingerprint() const noexcept override { return fingerprint_; }
-  [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
-    return real().make(setup, members);
-  }
 
  private:
   std::string fingerprint_;

@@ -38,7 +38,7 @@ export default function setup(project: TestProject): () => void {
   for (const [name, scenario, options] of runs) {
     const out = path.join(directory, name);
     call('run', path.join(root, `scenarios/${scenario}.toml`), '--out', out, '--series', '--quiet', ...options);
-    writeFileSync(path.join(out, 'export.csv'), call('export', path.join(out, 'run.mcap'), '--csv'));
+    writeFileSync(path.join(out, 'export.csv'), call('export', path.join(out, 'run.mcap')));
   }
   project.provide('recordings', directory);
   return () => rmSync(directory, { recursive: true, force: true });

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/hosts/argos/mirror.hpp"
 
-#include <algorithm>
+#include <utility>
 
+#include "banyan/controller/core/elsewhere.hpp"
 #include "banyan/controller/core/trig.hpp"
 
 namespace banyan::argos {
@@ -33,23 +34,14 @@ class MirroredBodies final : public world::Bodies {
   const MirroredRobots& robots_;
 };
 
-class MirrorSwarm final : public Swarm {
+class MirrorSwarm final : public SwarmElsewhere {
  public:
-  MirrorSwarm(std::unique_ptr<Swarm> local, MirroredRobots& robots) : local_(std::move(local)), robots_(&robots) {
-    for (std::size_t i = 0; i < local_->size(); ++i) {
-      Mirror& mirror = mirrors_.emplace_back();
-      mirror.report = local_->report(i);
-      mirror.message.resize(local_->message_bytes());
-      local_->send(i, mirror.message);
-      mirror.numbers.resize(local_->message_fields().size());
-      local_->message_numbers(i, mirror.numbers);
-    }
-  }
-  MirrorSwarm(const MirrorSwarm& other) : local_(other.local_->clone()), mirrors_(other.mirrors_) {}
+  MirrorSwarm(std::unique_ptr<Swarm> local, MirroredRobots& robots)
+      : SwarmElsewhere(std::move(local)), robots_(&robots) {}
+  MirrorSwarm(const MirrorSwarm& other) : SwarmElsewhere(other) {}
   MirrorSwarm& operator=(const MirrorSwarm&) = delete;
   // A clone stays as it is: nobody lives in it.
   [[nodiscard]] std::unique_ptr<Swarm> clone() const override { return std::make_unique<MirrorSwarm>(*this); }
-  [[nodiscard]] std::size_t size() const noexcept override { return mirrors_.size(); }
 
   void step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands,
             std::span<Report> reports) override {
@@ -58,8 +50,8 @@ class MirrorSwarm final : public Swarm {
       Told told;
       told.alive = sensed[k].steps;
       if (told.alive) {
-        take(first + k, commands[k]);
-        reports[k] = mirrors_[first + k].report;
+        hear(first + k, commands[k]);
+        reports[k] = report(first + k);
         told.sent = orders.sent;
         told.given_up = orders.given_up;
         told.obstacles = sensed[k].senses.obstacles;
@@ -67,50 +59,19 @@ class MirrorSwarm final : public Swarm {
       if (robots_ != nullptr) robots_->tell(first + k, told);
     }
   }
-  void advance() noexcept override { local_->advance(); }
-
-  std::size_t send(std::size_t i, std::span<std::uint8_t> bytes) const noexcept override {
-    std::copy(mirrors_[i].message.begin(), mirrors_[i].message.end(), bytes.begin());
-    return mirrors_[i].message.size();
-  }
-  [[nodiscard]] std::size_t message_bytes() const noexcept override { return local_->message_bytes(); }
-  // Nobody hears other swarms through a mirror.
-  std::optional<std::uint32_t> receive(std::span<const std::uint8_t> /*bytes*/) override { return std::nullopt; }
-  [[nodiscard]] Report report(std::size_t i) const noexcept override { return mirrors_[i].report; }
-  void add_to(Digest& digest, std::size_t i) const noexcept override {
-    for (const std::uint8_t byte : mirrors_[i].message) digest.add(byte);
-  }
-  [[nodiscard]] std::span<const FieldInfo> message_fields() const noexcept override { return local_->message_fields(); }
-  void message_numbers(std::size_t i, std::span<double> numbers) const noexcept override {
-    std::copy(mirrors_[i].numbers.begin(), mirrors_[i].numbers.end(), numbers.begin());
-  }
+  void advance() noexcept override { end_taking(); }
   void set_line_of_sight(bool /*on*/) noexcept override {}
-  [[nodiscard]] std::size_t memory_bytes() const noexcept override {
-    return sizeof(*this) + local_->memory_bytes() + mirrors_.size() * (sizeof(Mirror) + local_->message_bytes());
-  }
 
  private:
-  struct Mirror {
-    Report report;
-    std::vector<std::uint8_t> message;
-    std::vector<double> numbers;  // of that
-  };
-
-  void take(std::size_t i, Velocity& command) {
+  void hear(std::size_t i, Velocity& command) {
     if (robots_ == nullptr) return;
     const Said said = robots_->said(i);
-    Mirror& mirror = mirrors_[i];
     command = said.velocity;
-    mirror.report = said.report;
-    const auto place = local_->receive(said.message);
-    if (!place) return;  // it has not stepped yet
-    mirror.message.assign(said.message.begin(), said.message.end());
-    local_->message_numbers(*place, mirror.numbers);
+    take(i, said.report);
+    take(i, said.message);  // none before its first step
   }
 
-  std::unique_ptr<Swarm> local_;      // knows the messages
   MirroredRobots* robots_ = nullptr;  // null: a clone
-  std::vector<Mirror> mirrors_;
 };
 
 }  // namespace
@@ -119,9 +80,8 @@ std::unique_ptr<world::Bodies> mirrored_bodies(const MirroredRobots& robots) {
   return std::make_unique<MirroredBodies>(robots);
 }
 
-std::unique_ptr<Swarm> MirrorAlgorithm::make(const Setup& setup, std::span<const Member> members) const {
-  members_.assign(members.begin(), members.end());
-  return std::make_unique<MirrorSwarm>(real().make(setup, members), robots_);
+std::unique_ptr<Swarm> mirrored_swarm(std::unique_ptr<Swarm> local, MirroredRobots& robots) {
+  return std::make_unique<MirrorSwarm>(std::move(local), robots);
 }
 
 }  // namespace banyan::argos

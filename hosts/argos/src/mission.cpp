@@ -109,7 +109,11 @@ MissionRun::MissionRun(config::Configuration configuration, std::string out, boo
     : configuration_(std::move(configuration)),
       out_(std::move(out)),
       robots_(robots),
-      algorithm_(world::algorithm_of(configuration_.scenario), robots) {
+      algorithm_(world::algorithm_of(configuration_.scenario),
+                 [this](std::unique_ptr<Swarm> local, const Setup&, std::span<const Member> members) {
+                   members_.assign(members.begin(), members.end());
+                   return mirrored_swarm(std::move(local), robots_);
+                 }) {
   world::Scenario& scenario = configuration_.scenario;
   if (!placed.empty()) scenario = starting_at(scenario, placed);
   try {

@@ -67,8 +67,8 @@ TEST(Ros2Options, WhatIsWrongIsSaid) {
   EXPECT_EQ(fault(with({"--frame", ""})), "--frame must not be empty");
   EXPECT_EQ(fault({"--id", "1", "--id", "2", "--poses", "127.0.0.1:5000"}), "--id is given twice; give it once");
   EXPECT_EQ(fault(with({"--node", "a", "--node", "b"})), "--node is given twice; give it once");
-  EXPECT_EQ(fault({"--robots", "3", "--id", "1"}), "--id cannot be beside --robots: give one of the two");
-  EXPECT_EQ(fault({"--id", "1", "--robots", "3"}), "--robots cannot be beside --id: give one of the two");
+  EXPECT_EQ(fault({"--robots", "3", "--id", "1"}), "--robots and --id exclude each other: give one of the two");
+  EXPECT_EQ(fault({"--id", "1", "--robots", "3"}), "--robots and --id exclude each other: give one of the two");
   EXPECT_NE(usage().find("--max-age"), std::string::npos);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// banyan-robot: one robot of a fleet. The program of a robot's computer; needs libsodium and nothing else of ours
-// but the controller.
+// banyan-robot: one robot of a fleet. The program of a robot's computer; needs libsodium, CLI11 and nothing else of
+// ours but the controller.
 #include <cstdio>
 #include <exception>
 #include <string>

@@ -8,26 +8,20 @@ namespace banyan::udp {
 
 RemoteSwarm::RemoteSwarm(std::unique_ptr<Swarm> local, std::span<const Member> members, const Setup& setup,
                          RemoteLink& link, std::uint32_t silence)
-    : local_(std::move(local)),
+    : SwarmElsewhere(std::move(local)),
+      robots_(members.size()),
       history_(std::max<std::size_t>(1, setup.history)),
       silence_(silence),
       link_(&link),
       line_of_sight_(setup.platform.line_of_sight) {
   for (std::size_t i = 0; i < members.size(); ++i) {
-    Robot robot;
-    robot.member = members[i];
-    robot.report = local_->report(i);
-    robot.message.resize(local_->message_bytes());
-    robot.message.resize(local_->send(i, robot.message));
-    robot.numbers.resize(local_->message_fields().size());
-    local_->message_numbers(i, robot.numbers);
-    robot.recent.resize(history_);
-    robots_.push_back(std::move(robot));
+    robots_[i].member = members[i];
+    robots_[i].recent.resize(history_);
   }
 }
 
 RemoteSwarm::RemoteSwarm(const RemoteSwarm& other)
-    : local_(other.local_->clone()),
+    : SwarmElsewhere(other),
       robots_(other.robots_),
       history_(other.history_),
       silence_(other.silence_),
@@ -38,14 +32,12 @@ RemoteSwarm::RemoteSwarm(const RemoteSwarm& other)
 std::unique_ptr<Swarm> RemoteSwarm::clone() const { return std::unique_ptr<Swarm>(new RemoteSwarm(*this)); }
 
 // A message that the algorithm does not know makes the whole status worthless.
-void RemoteSwarm::take(Robot& robot, const Status& status) {
-  const auto place = local_->receive(status.message);
-  if (!place) return;
-  local_->message_numbers(*place, robot.numbers);
+void RemoteSwarm::hear(std::size_t i, const Status& status) {
+  if (!take(i, status.message)) return;
+  take(i, status.report);
+  Robot& robot = robots_[i];
   robot.silent_ticks = 0;
   robot.velocity = status.velocity;
-  robot.report = status.report;
-  robot.message = status.message;
   robot.recent[slot(0)] = status.message;
   if (!robot.given_up.empty() && status.given_up_serial == static_cast<std::uint8_t>(robot.given_up_serial + 1)) {
     ++robot.given_up_serial;
@@ -62,9 +54,9 @@ void RemoteSwarm::collect() {
     robot.recent[slot(0)].clear();
     ++robot.silent_ticks;
     const auto status = link_ != nullptr ? link_->take(i) : std::nullopt;
-    if (status) take(robot, *status);
+    if (status) hear(i, *status);
   }
-  local_->advance();  // forgets the messages that take() has looked into
+  end_taking();
 }
 
 SensorFrame RemoteSwarm::frame_of(Robot& robot, const Senses& senses) const {
@@ -104,7 +96,7 @@ void RemoteSwarm::step(std::size_t first, std::span<const Sensed> sensed, std::s
     }
     if (link_ != nullptr) link_->deliver(first + k, frame_of(robot, senses), heard_);
     commands[k] = robot.silent_ticks > silence_ ? Velocity{} : robot.velocity;
-    reports[k] = robot.report;
+    reports[k] = report(first + k);
   }
 }
 
@@ -113,30 +105,23 @@ void RemoteSwarm::advance() noexcept {
   collected_ = false;
 }
 
-std::size_t RemoteSwarm::send(std::size_t i, std::span<std::uint8_t> bytes) const noexcept {
-  const Bytes& message = robots_[i].message;
-  std::copy(message.begin(), message.end(), bytes.begin());
-  return message.size();
-}
-
 void RemoteSwarm::add_to(Digest& digest, std::size_t i) const noexcept {
   const Robot& robot = robots_[i];
   digest.add(robot.silent_ticks);
   digest.add(robot.odometry.position);
   digest.add(robot.odometry.turn_rad);
-  for (const std::uint8_t byte : robot.message) digest.add(byte);
-}
-
-void RemoteSwarm::message_numbers(std::size_t i, std::span<double> numbers) const noexcept {
-  std::copy(robots_[i].numbers.begin(), robots_[i].numbers.end(), numbers.begin());
+  SwarmElsewhere::add_to(digest, i);
 }
 
 std::size_t RemoteSwarm::memory_bytes() const noexcept {
-  return sizeof(*this) + local_->memory_bytes() + robots_.size() * (sizeof(Robot) + history_ * local_->message_bytes());
+  return sizeof(*this) - sizeof(SwarmElsewhere) + SwarmElsewhere::memory_bytes() +
+         robots_.size() * (sizeof(Robot) + history_ * message_bytes());
 }
 
-std::unique_ptr<Swarm> RemoteAlgorithm::make(const Setup& setup, std::span<const Member> members) const {
-  return std::make_unique<RemoteSwarm>(real().make(setup, members), members, setup, link_, silence_);
+AlgorithmElsewhere remote_algorithm(const Algorithm& real, RemoteLink& link, std::uint32_t silence) {
+  return {real, [&link, silence](std::unique_ptr<Swarm> local, const Setup& setup, std::span<const Member> members) {
+            return std::make_unique<RemoteSwarm>(std::move(local), members, setup, link, silence);
+          }};
 }
 
 }  // namespace banyan::udp

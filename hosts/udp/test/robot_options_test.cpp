@@ -73,6 +73,7 @@ TEST(RobotOptions, WhatIsWrongIsSaid) {
   EXPECT_EQ(fault(with({"--id", "2"})), "--id is given twice; give it once");
   EXPECT_EQ(fault(with({"--range", "2", "--range", "2"})), "--range is given twice; give it once");
   EXPECT_EQ(fault(with({"--holonomic", "--set", "safe_range=0.8", "--holonomic", "--set", "ideal_distance=0.7"})), "");
+  EXPECT_EQ(fault(with({"--holonomic=false"})), "--holonomic takes no value");
   EXPECT_NE(robot_usage().find("--stop-after"), std::string::npos);
 }
 

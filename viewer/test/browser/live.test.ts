@@ -118,7 +118,7 @@ describe('a live run', () => {
     const { tab } = await visit();
     await playTo(tab, 6);
     const file = await savedOfLive(tab, 'Save .mcap');
-    const csv = banyan('export', file, '--csv');
+    const csv = banyan('export', file);
     expect(csv.includes('\n50,5.0000,')).toBe(true);
   });
 

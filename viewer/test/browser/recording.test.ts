@@ -12,7 +12,7 @@ let rows: Record<string, string>[]; // of the exported table
 
 const { folder, visit: open } = served((home) => {
   recording = home.record('run', scenario('three-targets'));
-  rows = table(banyan('export', recording, '--csv'));
+  rows = table(banyan('export', recording));
   return recording;
 });
 

@@ -62,27 +62,6 @@ class Algorithm {
   ~Algorithm() = default;
 };
 
-// An algorithm as another one, whose robots are elsewhere: only its swarms differ. The real one must outlive it.
-class AlgorithmElsewhere : public Algorithm {
- public:
-  [[nodiscard]] std::string_view name() const noexcept override { return real_.name(); }
-  [[nodiscard]] std::string_view summary() const noexcept override { return real_.summary(); }
-  [[nodiscard]] std::string_view fingerprint() const noexcept override { return real_.fingerprint(); }
-  [[nodiscard]] std::vector<const ParameterInfo*> parameters() const override { return real_.parameters(); }
-  [[nodiscard]] std::vector<float> values(const Setup& setup) const override { return real_.values(setup); }
-  [[nodiscard]] std::string fault(const Setup& setup) const override { return real_.fault(setup); }
-  [[nodiscard]] bool knows_redundancy() const noexcept override { return real_.knows_redundancy(); }
-  [[nodiscard]] bool knows_readings() const noexcept override { return real_.knows_readings(); }
-
- protected:
-  explicit AlgorithmElsewhere(const Algorithm& real) noexcept : real_(real) {}
-  ~AlgorithmElsewhere() = default;
-  [[nodiscard]] const Algorithm& real() const noexcept { return real_; }
-
- private:
-  const Algorithm& real_;
-};
-
 // The algorithms that a program has, in the order in which they are listed. The program hands its list
 // down: algorithms/ has the list of those that come with Banyan.
 class AlgorithmList {

@@ -5,10 +5,7 @@
 #pragma once
 
 #include <memory>
-#include <span>
-#include <vector>
 
-#include "banyan/controller/core/algorithm.hpp"
 #include "banyan/hosts/argos/robot.hpp"
 #include "banyan/world/bodies.hpp"
 
@@ -35,17 +32,8 @@ class MirroredRobots {
 // In each tick robots are where they are there. `robots` must outlive it.
 [[nodiscard]] std::unique_ptr<world::Bodies> mirrored_bodies(const MirroredRobots& robots);
 
-// The algorithm whose robots are there. Both must outlive it. Its swarms step on one thread.
-class MirrorAlgorithm final : public AlgorithmElsewhere {
- public:
-  MirrorAlgorithm(const Algorithm& real, MirroredRobots& robots) noexcept : AlgorithmElsewhere(real), robots_(robots) {}
-  [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override;
-  // How the robots begin of which the last swarm was made.
-  [[nodiscard]] std::span<const Member> members() const noexcept { return members_; }
-
- private:
-  MirroredRobots& robots_;
-  mutable std::vector<Member> members_;
-};
+// A swarm of those robots, of a `local` one, which knows its messages. `robots` must outlive it. It steps on one
+// thread.
+[[nodiscard]] std::unique_ptr<Swarm> mirrored_swarm(std::unique_ptr<Swarm> local, MirroredRobots& robots);
 
 }  // namespace banyan::argos

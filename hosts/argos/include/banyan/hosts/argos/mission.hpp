@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "banyan/config/config.hpp"
+#include "banyan/controller/core/elsewhere.hpp"
 #include "banyan/hosts/argos/mirror.hpp"
 #include "banyan/record/outputs.hpp"
 #include "banyan/record/simulation.hpp"
@@ -39,7 +40,7 @@ class MissionRun {
 
   [[nodiscard]] const world::World& world() const noexcept { return simulation_->world(); }
   [[nodiscard]] Pose start(std::size_t i) const;
-  [[nodiscard]] const Member& member(std::size_t i) const { return algorithm_.members()[i]; }
+  [[nodiscard]] const Member& member(std::size_t i) const { return members_[i]; }
   // Where robot i has been sent. None: nowhere, or the target was given up.
   [[nodiscard]] std::optional<BasicVec2<double>> target_of(std::size_t i) const;
 
@@ -55,7 +56,8 @@ class MissionRun {
   config::Configuration configuration_;
   std::string out_;
   MirroredRobots& robots_;
-  MirrorAlgorithm algorithm_;
+  AlgorithmElsewhere algorithm_;
+  std::vector<Member> members_;  // how the robots begin of which its last swarm was made
   record::Sinks sinks_;
   world::Executor executor_{1};
   std::unique_ptr<record::Simulation> simulation_;

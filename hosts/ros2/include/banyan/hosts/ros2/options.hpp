@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "banyan/hosts/udp/option_table.hpp"
+#include "banyan/hosts/udp/option_error.hpp"
 
 namespace banyan::ros2 {
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "banyan/controller/core/algorithm.hpp"
+#include "banyan/controller/core/elsewhere.hpp"
 #include "banyan/hosts/udp/messages.hpp"
 
 namespace banyan::udp {
@@ -31,7 +31,7 @@ class RemoteLink {
 };
 
 // Steps on one thread only.
-class RemoteSwarm final : public Swarm {
+class RemoteSwarm final : public SwarmElsewhere {
  public:
   // `local`: a swarm of the algorithm, which knows its messages. A robot that is silent for more than `silence` ticks
   // stands still. `link` must outlive it; a clone has none.
@@ -39,18 +39,10 @@ class RemoteSwarm final : public Swarm {
               std::uint32_t silence);
 
   [[nodiscard]] std::unique_ptr<Swarm> clone() const override;
-  [[nodiscard]] std::size_t size() const noexcept override { return robots_.size(); }
   void step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands,
             std::span<Report> reports) override;
   void advance() noexcept override;
-  std::size_t send(std::size_t i, std::span<std::uint8_t> bytes) const noexcept override;
-  [[nodiscard]] std::size_t message_bytes() const noexcept override { return local_->message_bytes(); }
-  // Nobody hears other swarms through a hub.
-  std::optional<std::uint32_t> receive(std::span<const std::uint8_t> /*bytes*/) override { return std::nullopt; }
-  [[nodiscard]] Report report(std::size_t i) const noexcept override { return robots_[i].report; }
   void add_to(Digest& digest, std::size_t i) const noexcept override;
-  [[nodiscard]] std::span<const FieldInfo> message_fields() const noexcept override { return local_->message_fields(); }
-  void message_numbers(std::size_t i, std::span<double> numbers) const noexcept override;
   void set_line_of_sight(bool on) noexcept override { line_of_sight_ = on; }
   [[nodiscard]] std::size_t memory_bytes() const noexcept override;
 
@@ -59,10 +51,7 @@ class RemoteSwarm final : public Swarm {
     Member member;
     OdometricPose odometry;
     Velocity velocity;
-    Report report;
-    Bytes message;                // the last
-    std::vector<double> numbers;  // of that
-    std::vector<Bytes> recent;    // a ring, by tick: what arrived in it; empty: nothing
+    std::vector<Bytes> recent;  // a ring, by tick: what arrived in it; empty: nothing
     std::uint32_t silent_ticks = 0;
     std::deque<RobotId> given_up;      // still to be announced; the first is being announced
     std::uint8_t given_up_serial = 0;  // of the last that it has confirmed
@@ -70,11 +59,10 @@ class RemoteSwarm final : public Swarm {
 
   RemoteSwarm(const RemoteSwarm& other);
   void collect();
-  void take(Robot& robot, const Status& status);
+  void hear(std::size_t i, const Status& status);
   [[nodiscard]] SensorFrame frame_of(Robot& robot, const Senses& senses) const;
   [[nodiscard]] std::size_t slot(std::uint32_t age) const noexcept { return (tick_ + history_ - age) % history_; }
 
-  std::unique_ptr<Swarm> local_;
   std::vector<Robot> robots_;
   std::size_t history_;
   std::uint32_t silence_;
@@ -85,16 +73,7 @@ class RemoteSwarm final : public Swarm {
   std::vector<Hearing> heard_;
 };
 
-// An algorithm whose robots are elsewhere.
-class RemoteAlgorithm final : public AlgorithmElsewhere {
- public:
-  RemoteAlgorithm(const Algorithm& real, RemoteLink& link, std::uint32_t silence) noexcept
-      : AlgorithmElsewhere(real), link_(link), silence_(silence) {}
-  [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override;
-
- private:
-  RemoteLink& link_;
-  std::uint32_t silence_;
-};
+// An algorithm whose robots are at the other end of the link.
+[[nodiscard]] AlgorithmElsewhere remote_algorithm(const Algorithm& real, RemoteLink& link, std::uint32_t silence);
 
 }  // namespace banyan::udp

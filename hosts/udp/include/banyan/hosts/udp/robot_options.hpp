@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "banyan/controller/core/algorithm.hpp"
-#include "banyan/hosts/udp/option_table.hpp"
+#include "banyan/hosts/udp/option_error.hpp"
 
 namespace banyan::udp {
 

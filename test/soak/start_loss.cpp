@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
 namespace {
 
 using world::RadioModel;
@@ -52,4 +52,4 @@ double mean_loss(const RadioModel& radio, const std::vector<double>& lengths_m) 
   return lengths_m.empty() ? 0.0 : sum / static_cast<double>(lengths_m.size());
 }
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

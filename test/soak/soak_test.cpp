@@ -16,20 +16,21 @@
 #include "banyan/world/faults.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/world.hpp"
-#include "commands.hpp"
+#include "free_path.hpp"
+#include "in_reach.hpp"
+#include "isolated.hpp"
+#include "journal.hpp"
+#include "mission.hpp"
 #include "plain_scenario.hpp"
 #include "sample.hpp"
-#include "soak/free_path.hpp"
-#include "soak/in_reach.hpp"
-#include "soak/isolated.hpp"
-#include "soak/journal.hpp"
-#include "soak/mission.hpp"
-#include "soak/shrink.hpp"
-#include "soak/sight.hpp"
-#include "soak/start_loss.hpp"
+#include "shrink.hpp"
+#include "sight.hpp"
+#include "soak.hpp"
+#include "start_loss.hpp"
+#include "started_program.hpp"
 #include "terminal.hpp"
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
 namespace {
 
 using world::Scenario;
@@ -384,7 +385,7 @@ TEST(SoakCommand, KeepsAJournalThatDoesNotDependOnProcessesAndGoesOn) {
   options.threads = 1;
   options.quiet = true;
   options.out = directory.file("one");
-  static_cast<void>(soak_command(options));
+  static_cast<void>(run_soak(options));
   const auto rows = [](const std::string& path) {
     std::istringstream lines(text_of_file(path));
     std::multiset<std::string> all;
@@ -395,12 +396,12 @@ TEST(SoakCommand, KeepsAJournalThatDoesNotDependOnProcessesAndGoesOn) {
   EXPECT_EQ(one.size(), 3U);
   options.threads = 3;
   options.out = directory.file("three");
-  static_cast<void>(soak_command(options));
+  static_cast<void>(run_soak(options));
   EXPECT_EQ(rows(options.out + "/soak.csv"), one);
   // Cut off in the middle of the last row, as by a full disk: that mission is run again, the others are not.
   const std::string journal = options.out + "/soak.csv";
   std::filesystem::resize_file(journal, std::filesystem::file_size(journal) - 5);
-  static_cast<void>(soak_command(options));
+  static_cast<void>(run_soak(options));
   EXPECT_EQ(rows(journal), one);
 }
 
@@ -411,7 +412,7 @@ TEST(SoakCommand, KeepsAMissionWholeIfAskedTo) {
   options.from = options.missions.emplace(1);
   options.quiet = options.whole = true;
   options.out = directory.file("whole");
-  static_cast<void>(soak_command(options));
+  static_cast<void>(run_soak(options));
   std::size_t kept = 0;
   for (const auto& entry : std::filesystem::directory_iterator(options.out)) {
     if (entry.path().extension() != ".toml") continue;
@@ -435,10 +436,30 @@ TEST(SoakCommand, NamesALineOfItsJournalThatIsNone) {
   try {
     const SoakJournal damaged(path, 9, false);
     FAIL() << "a number of robots that is none";
-  } catch (const CommandError& e) {
+  } catch (const cli::CommandError& e) {
     EXPECT_NE(std::string(e.what()).find("soak.csv:3"), std::string::npos) << e.what();
   }
   EXPECT_FALSE(SoakJournal(path, 9, true).has(3)) << "begun anew";
+}
+
+class SoakProgram : public cli::StartedProgram {};
+
+TEST_F(SoakProgram, RefusesWhatIsOutOfRange) {
+  const auto refused = [&](const cli::Arguments& arguments, const char* why) {
+    const auto outcome = run(arguments);
+    EXPECT_EQ(outcome.code, cli::exit_usage);
+    EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("see banyan_soak --help"), std::string::npos) << outcome.err;
+  };
+  refused({"--seed", "9007199254740993", "--missions", "1", "-o", "o"}, "--seed");
+  refused({"--from", "99999999999999999999", "--missions", "1", "-o", "o"}, "--from");
+  refused({"--missions", "0", "-o", "o"}, "--missions");
+}
+
+TEST_F(SoakProgram, WatchesAScenario) {
+  const auto outcome = run({std::string(BANYAN_SCENARIOS) + "/three-targets.toml"});
+  EXPECT_EQ(outcome.code, cli::exit_done) << outcome.err;
+  EXPECT_NE(outcome.out.find("nothing found"), std::string::npos) << outcome.out;
 }
 
 TEST(SoakJournal, CountsAMissionInEachOfItsKinds) {
@@ -535,4 +556,4 @@ TEST(FreePath, AgreesWithAGrid) {
 }
 
 }  // namespace
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

@@ -16,12 +16,14 @@
 #include <optional>
 #include <sstream>
 
-#include "../outputs.hpp"
-#include "../terminal.hpp"
 #include "banyan/record/file.hpp"
 #include "mission.hpp"
+#include "outputs.hpp"
+#include "terminal.hpp"
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
+
+using namespace cli;
 namespace {
 
 constexpr const char* header = "seed,index,kind,robots,targets,complete,complete_s,bound_s,time_s,hash,findings\n";
@@ -157,4 +159,4 @@ std::string table_of(const std::map<std::uint64_t, SoakRow>& rows) {
   return text + line_of_kind("all", all);
 }
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

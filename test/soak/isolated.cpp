@@ -18,9 +18,11 @@
 #include <utility>
 #include <vector>
 
-#include "../terminal.hpp"
+#include "terminal.hpp"
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
+
+using namespace cli;
 namespace {
 
 void write_all(int pipe, std::string_view text) {
@@ -158,4 +160,4 @@ SoakOutcome Isolated::read_outcome(int status) const {
   return outcome;
 }
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

@@ -8,9 +8,9 @@
 
 #include "banyan/world/scenario.hpp"
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
 
 // m; infinite where there is no way.
 [[nodiscard]] double free_path_m(const std::vector<world::Obstacle>& obstacles, world::Vec2 from, world::Vec2 to);
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

@@ -9,7 +9,7 @@
 #include "banyan/world/faults.hpp"
 #include "banyan/world/random.hpp"
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
 namespace {
 
 using namespace world;
@@ -194,4 +194,4 @@ std::string text_of(const Traits& t) {
   return text.empty() ? "plain" : text;
 }
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

@@ -5,12 +5,20 @@
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/record/table.hpp"
 #include "commands.hpp"
+#include "options.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
 
 using namespace config;
 namespace {
+
+struct KeysOptions {
+  std::string prefix;
+  bool json = false;
+  bool markdown = false;
+  bool columns = false;
+};
 
 nlohmann::ordered_json json_of(const std::vector<KeyRow>& rows) {
   auto list = nlohmann::ordered_json::array();
@@ -24,8 +32,6 @@ nlohmann::ordered_json json_of(const std::vector<KeyRow>& rows) {
   }
   return list;
 }
-
-}  // namespace
 
 int keys_command(const KeysOptions& options) {
   if (options.columns) {
@@ -64,6 +70,7 @@ int keys_command(const KeysOptions& options) {
   return exit_done;
 }
 
+// What may follow `word` after --set, one candidate per line.
 int complete_keys_command(const std::string& word) {
   std::string text;
   const auto equals = word.find('=');
@@ -79,6 +86,26 @@ int complete_keys_command(const std::string& word) {
   }
   print(text);
   return exit_done;
+}
+
+}  // namespace
+
+void add_keys(CLI::App& command, CommandAction& action) {
+  auto options = std::make_shared<KeysOptions>();
+  command.footer(
+      "Examples:\n  banyan keys\n  banyan keys radio.\n  banyan keys --markdown > docs/scenario-keys.md\n"
+      "  banyan keys --columns > docs/columns.md");
+  command.add_option("prefix", options->prefix, "only keys that begin with this")->type_name("PREFIX");
+  command.add_flag("--json", options->json, "as JSON");
+  command.add_flag("--markdown", options->markdown, "as the page docs/scenario-keys.md");
+  command.add_flag("--columns", options->columns, "the columns of results instead, as the page docs/columns.md");
+  command.callback([options, &action] { action = [options] { return keys_command(*options); }; });
+}
+
+void add_complete_keys(CLI::App& command, CommandAction& action) {
+  auto word = std::make_shared<std::string>();
+  command.add_option("word", *word);
+  command.callback([word, &action] { action = [word] { return complete_keys_command(*word); }; });
 }
 
 }  // namespace banyan::cli

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
 namespace {
 
 using world::Vec2;
@@ -50,4 +50,4 @@ bool all_in_reach(const std::vector<Vec2>& robots, const std::vector<Vec2>& targ
   return true;
 }
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

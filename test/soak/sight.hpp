@@ -9,7 +9,7 @@
 
 #include "banyan/world/world.hpp"
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
 
 class SightCheck {
  public:
@@ -38,4 +38,4 @@ class SightCheck {
   const world::World& world_;
 };
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

@@ -5,7 +5,7 @@
 
 #include "banyan/world/faults.hpp"
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
 namespace {
 
 using namespace world;
@@ -116,4 +116,4 @@ Scenario shrink(Scenario scenario, double failed_at_s, const std::function<bool(
   return shrinker.run();
 }
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

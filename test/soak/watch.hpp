@@ -9,7 +9,7 @@
 
 #include "banyan/world/scenario.hpp"
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
 
 struct Finding {
   std::string kind;     // "split", ...: the names of docs/soak.md
@@ -34,4 +34,4 @@ struct SoakOutcome {
 // known weakness that is only reported.
 [[nodiscard]] bool is_promised(const std::string& kind, const world::Scenario& scenario);
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `banyan soak`: random missions, one after the other, watched at every tick (docs/soak.md).
+#include "soak.hpp"
+
 #include <poll.h>
 
 #include <algorithm>
@@ -11,17 +12,18 @@
 #include <map>
 #include <thread>
 
-#include "../commands.hpp"
-#include "../outputs.hpp"
-#include "../terminal.hpp"
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
 #include "isolated.hpp"
 #include "journal.hpp"
 #include "mission.hpp"
+#include "outputs.hpp"
 #include "shrink.hpp"
+#include "terminal.hpp"
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
+
+using namespace cli;
 namespace {
 
 using Steady = std::chrono::steady_clock;
@@ -141,7 +143,7 @@ class Soak {
     const bool whole = options_.whole || Isolated::has_no_end(finding);
     small.scenario = shrink(scenario, until_s, again, whole ? 0 : shrinking_runs);
     small.scenario.name = finding.kind + "-" + std::to_string(index);
-    small.scenario.description = format("banyan soak --seed %" PRIu64 ", mission %" PRIu64 "%s: ", options_.seed, index,
+    small.scenario.description = format("banyan_soak --seed %" PRIu64 ", mission %" PRIu64 "%s: ", options_.seed, index,
                                         whole ? "" : ", made smaller") +
                                  finding.text;
     const std::string path = directory_ + "/" + small.scenario.name + ".toml";
@@ -149,7 +151,7 @@ class Soak {
     out << config::config_toml(small);
     if (!out.flush()) throw CommandError(exit_lost, "cannot write " + path + ": " + std::strerror(errno));
     progress_.clear();
-    complain(format("%s%s in mission %" PRIu64 " (%s): %s; %s and %s%s:\n  banyan soak %s",
+    complain(format("%s%s in mission %" PRIu64 " (%s): %s; %s and %s%s:\n  banyan_soak %s",
                     promised ? "BROKEN PROMISE: " : "known weakness: ", finding.kind.c_str(), index,
                     text_of(traits_of(scenario)).c_str(), finding.text.c_str(),
                     plural(world::robot_count(small.scenario), "robot").c_str(),
@@ -170,7 +172,7 @@ class Soak {
         "median, 95 %%, worst:\n",
         directory_.c_str());
     text += table_of(journal_.rows());
-    text += format("Again, one alone: banyan soak --seed %" PRIu64 " --from N --missions 1 --out DIR\n", options_.seed);
+    text += format("Again, one alone: banyan_soak --seed %" PRIu64 " --from N --missions 1 --out DIR\n", options_.seed);
     print_text(text);
   }
 
@@ -205,16 +207,13 @@ int watch_file(const SoakOptions& options) {
 }
 
 }  // namespace
-}  // namespace banyan::cli::soak
 
-namespace banyan::cli {
-
-int soak_command(const SoakOptions& options) {
+int run_soak(const SoakOptions& options) {
   catch_stop_signals();
-  if (!options.file.empty()) return soak::watch_file(options);
+  if (!options.file.empty()) return watch_file(options);
   const std::string directory = options.out.empty() ? "out/soak-" + std::to_string(options.seed) : options.out;
   make_directory(directory);
-  return soak::Soak(options, directory).run();
+  return Soak(options, directory).run();
 }
 
-}  // namespace banyan::cli
+}  // namespace banyan::soak

@@ -8,7 +8,7 @@
 
 #include "banyan/world/scenario.hpp"
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
 
 [[nodiscard]] world::Scenario mission(std::uint64_t seed, std::uint64_t index);
 
@@ -28,4 +28,4 @@ struct Traits {
 // "loose start, obstacles": for people; "plain" if there is nothing.
 [[nodiscard]] std::string text_of(const Traits& traits);
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

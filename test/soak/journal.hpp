@@ -10,7 +10,7 @@
 
 #include "watch.hpp"
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
 
 struct SoakRow {
   std::uint64_t index = 0;
@@ -55,4 +55,4 @@ class SoakJournal {
 // of several kinds counts in each.
 [[nodiscard]] std::string table_of(const std::map<std::uint64_t, SoakRow>& rows);
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
 namespace {
 
 using world::Vec2;
@@ -91,4 +91,4 @@ double free_path_m(const std::vector<world::Obstacle>& obstacles, Vec2 from, Vec
   }
 }
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

@@ -10,7 +10,7 @@
 
 #include "watch.hpp"
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
 
 class Isolated {
  public:
@@ -45,4 +45,4 @@ class Isolated {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

@@ -6,7 +6,7 @@
 
 #include "banyan/world/scenario.hpp"
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
 
 // Tries one simplification after the other (fewer robots, targets, events, obstacles; a plainer world; a shorter
 // run) and keeps those with which `still_fails`, until none helps or `most_runs` were asked for. Scenarios with
@@ -14,4 +14,4 @@ namespace banyan::cli::soak {
 [[nodiscard]] world::Scenario shrink(world::Scenario scenario, double failed_at_s,
                                      const std::function<bool(const world::Scenario&)>& still_fails, int most_runs);
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

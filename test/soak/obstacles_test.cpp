@@ -10,9 +10,9 @@
 #include "banyan/measure/observer.hpp"
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/world.hpp"
-#include "soak/sight.hpp"
+#include "sight.hpp"
 
-namespace banyan::cli {
+namespace banyan::soak {
 namespace {
 
 world::Scenario load(const std::string& name, std::uint64_t seed) {
@@ -54,7 +54,7 @@ Outcome simulate(const world::Scenario& scenario) {
   for (double& share : outcome.held) share /= ticks;
   outcome.run = observer.result(world);
   const std::vector<bool> living(world.alive().begin(), world.alive().end());
-  outcome.parts_at_the_end = soak::SightCheck(world).components(living, world.line_of_sight());
+  outcome.parts_at_the_end = SightCheck(world).components(living, world.line_of_sight());
   return outcome;
 }
 
@@ -134,4 +134,4 @@ TEST(Deaths, InATreeOfManyTargetsAreHealed) {
 }
 
 }  // namespace
-}  // namespace banyan::cli
+}  // namespace banyan::soak

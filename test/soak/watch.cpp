@@ -6,15 +6,17 @@
 #include <limits>
 #include <map>
 
-#include "../terminal.hpp"
 #include "banyan/world/threads.hpp"
 #include "free_path.hpp"
 #include "in_reach.hpp"
 #include "mission.hpp"
 #include "sight.hpp"
 #include "start_loss.hpp"
+#include "terminal.hpp"
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
+
+using namespace cli;
 namespace {
 
 using namespace world;
@@ -258,4 +260,4 @@ bool is_promised(const std::string& kind, const Scenario& scenario) {
   return kind == "split" && calm && starts_joined(scenario);
 }
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

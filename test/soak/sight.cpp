@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
 namespace {
 
 using namespace world;
@@ -124,4 +124,4 @@ template <class Linked> std::size_t SightCheck::components_over(const std::vecto
   return left;
 }
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

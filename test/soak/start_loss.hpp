@@ -7,7 +7,7 @@
 
 #include "banyan/world/scenario.hpp"
 
-namespace banyan::cli::soak {
+namespace banyan::soak {
 
 // The share of its packets that a link of this length loses on average, over both directions and all shadows.
 [[nodiscard]] double mean_loss(const world::RadioModel& radio, double length_m);
@@ -15,4 +15,4 @@ namespace banyan::cli::soak {
 // Its mean over links of these lengths; 0 if there are none.
 [[nodiscard]] double mean_loss(const world::RadioModel& radio, const std::vector<double>& lengths_m);
 
-}  // namespace banyan::cli::soak
+}  // namespace banyan::soak

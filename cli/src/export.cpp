@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// `banyan export`: a table from a recording.
+#include "banyan/record/export.hpp"
+
+#include <unistd.h>
+
+#include "commands.hpp"
+#include "options.hpp"
+#include "recordings.hpp"
+#include "terminal.hpp"
+
+namespace banyan::cli {
+namespace {
+
+struct ExportOptions {
+  std::string recording;
+  std::string output = "-";  // "-": standard output
+  double from_s = 0.0;
+  double to_s = std::numeric_limits<double>::infinity();
+  std::size_t every = 1;
+  bool force = false;
+};
+
+int export_command(const ExportOptions& options) {
+  refuse_to_overwrite(options.output, options.force);
+  if (options.from_s > options.to_s) throw CommandError(exit_usage, "--from is later than --to: nothing to export");
+  auto recording = open_recording(options.recording);
+  const auto told = recording.warnings();
+  const record::TableOptions chosen{options.from_s, options.to_s, options.every};
+  if (options.output == "-") {
+    record::export_csv(
+        recording, [](std::string_view piece) { record::write_all(STDOUT_FILENO, piece, "standard output"); }, chosen);
+    tell_further_warnings(recording, options.recording, told);
+    return exit_done;
+  }
+  const auto rows = record::export_csv(recording, options.output, existing(options.force), chosen);
+  tell_further_warnings(recording, options.recording, told);
+  complain("wrote " + grouped(static_cast<double>(rows)) + " rows to " + options.output);
+  return exit_done;
+}
+
+}  // namespace
+
+void add_export(CLI::App& command, CommandAction& action) {
+  auto options = std::make_shared<ExportOptions>();
+  command.footer(
+      "Columns: tick, time_s, robot, x_m, y_m, heading_rad, role, phase, parent, old_parent, alive,\n"
+      "connected, target.\n\n"
+      "Examples:\n"
+      "  banyan export out/three-targets-convoy-1/run.mcap -o robots.csv\n"
+      "  banyan export run.mcap --from 10 --to 20 --every 10 | head");
+  command.add_option("recording", options->recording, "a run.mcap")->required()->type_name("FILE");
+  command.add_option("-o,--output", options->output, "file to write, default standard output")->type_name("FILE");
+  command.add_option("--from", options->from_s, "first moment, s")->type_name("S")->check(moment());
+  command.add_option("--to", options->to_s, "last moment, s")->type_name("S")->check(moment());
+  command.add_option("--every", options->every, "every Nth recorded tick only")
+      ->type_name("N")
+      ->check(whole_within(1, 1000000));
+  command.add_flag("-f,--force", options->force, "replace the file if it exists");
+  command.callback([options, &action] { action = [options] { return export_command(*options); }; });
+}
+
+}  // namespace banyan::cli
