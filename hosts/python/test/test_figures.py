@@ -366,6 +366,17 @@ def test_texts_are_shown_as_they_are(text, tmp_path):
     assert not [name for name in os.listdir(tmp_path) if name.startswith(".")]
 
 
+def test_long_texts_stay_within():
+    for text in ("word " * 80, "x" * 500):
+        data = small(title=text, x_label=text, groups=[text, text + "2"])
+        data["series"] = [{"name": text}, {"name": text + "b"}]
+        data["measures"] = [{"label": text}]
+        figure = figures.plot(data)
+        width, height = figure.canvas.get_width_height()
+        for said, a in pieces(figure):
+            assert a.x0 >= -1 and a.y0 >= -1 and a.x1 <= width + 1 and a.y1 <= height + 1, said
+
+
 def pieces(figure):
     """All texts and where they are."""
     figure.canvas.draw()
@@ -387,6 +398,9 @@ def pieces(figure):
         (3, 4, 2, "", 3, 3),
         (1, 4, 7, "", 30, 1),
         (2, 3, 12, "group ", 12, 2),
+        (2, 3, 1, "", 3, 1),
+        (1, 6, 1, "a label that is rather long ", 0, 1),
+        (1, 8, 1, "longer ", 0, 1),
     ],
 )
 def test_texts_stay_apart_and_within(panels, groups, series, name, missed, columns):
