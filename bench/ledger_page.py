@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: MIT
 """The ledger shown: a page for the terminal, Markdown, and a figure with a line for each class."""
+import importlib.util
 import math
 import statistics
-import subprocess
 import sys
+from pathlib import Path
 
 from ledger_verdict import COLUMNS, percent, signed
 
+FIGURES = Path(__file__).resolve().parents[1] / 'hosts' / 'python' / 'banyan' / 'figures.py'
 COLOURS = {'worse': '31;1', 'better': '32', 'undecided': '33', 'new': '2', 'not worse': '0'}
 
 
@@ -116,31 +118,30 @@ def markdown(judged, cost, against, words, detail=False, by=()):
 def figure(judged, words, file):
     """One line a class: the difference of its primary column with the 95 % interval; grey: what the tolerance allows.
     What lies beyond the axis stands at its end, with its number."""
+    spec = importlib.util.spec_from_file_location('figures', FIGURES)  # the look of all figures
+    figures = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(figures)
     shown = [one for one in reversed(judged) if one.words]
     ends = [[-one.primary.more * percent(one.primary, value) for value in (d.mean, d.low, d.high)]
             for one in shown for d in [one.columns[one.primary.name]]]
     reach = min(40.0, max(5.0, *(1.15 * abs(value) for line in ends for value in line)))
     clip = lambda value: max(-reach, min(reach, value))  # noqa: E731
-    objects, data = [], []
-    for n, (one, (mean, low, high)) in enumerate(zip(shown, ends, strict=True)):
-        objects.append(f'set object rect from graph 0, first {n - 0.4} to first {clip(100 * one.tolerance)}, first {n + 0.4} '
-                       'fillcolor rgb "#dddddd" fillstyle solid noborder behind')
-        if abs(mean) > reach:
-            objects.append(f'set label "{mean:+.0f} " at {0.97 * clip(mean)}, {n} {"right" if mean > 0 else "left"} offset 0, 0.55 font ",9"')
-        data.append(f'{clip(mean)} {n} {clip(min(low, high))} {clip(max(low, high))} { {"worse": 1, "better": 2}.get(one.verdict, 3)}')
-    names = [one.name if one.name == one.primary.name else f'{one.name}: {one.primary.name.replace("_", " ")}' for one in shown]
-    tics = ', '.join(f'"{name}" {n}' for n, name in enumerate(names))
-    script = f'''set terminal svg size 700,{90 + 20 * len(shown)} font "sans-serif,11" background "white"
-set output "{file}"
-set title "{words}" font ",12"
-set xrange [{-reach}:{reach}]; set yrange [-0.7:{len(shown) - 0.3}]
-set ytics ({tics}) nomirror scale 0; set xtics nomirror; set border 1; unset key
-set xlabel "better   <   difference: shares in points, time and robots in %   >   worse"
-set arrow from 0, graph 0 to 0, graph 1 nohead lc rgb "#888888"
-set linetype 1 lc rgb "#c0392b"; set linetype 2 lc rgb "#1e8449"; set linetype 3 lc rgb "#222222"
-{chr(10).join(objects)}
-plot "-" using 1:2:3:4:5 with xerrorbars pt 7 ps 0.5 lw 1.5 lc variable
-{chr(10).join(data)}
-e
-'''
-    subprocess.run(['gnuplot'], input=script, text=True, check=True)
+    colours = {'worse': figures.SERIES[1][0], 'better': figures.SERIES[2][0]}
+    with figures.styled():
+        picture = figures.Figure(figsize=(figures.PAGE_IN, 0.7 + 0.16 * len(shown)), layout='constrained')
+        axes = picture.subplots()
+        for n, (one, (mean, low, high)) in enumerate(zip(shown, ends, strict=True)):
+            axes.barh(n, clip(100 * one.tolerance), height=0.8, color=figures.GRID)
+            style = {'color': colours.get(one.verdict, 'black'), 'linewidth': 1.2}
+            axes.plot([clip(low), clip(high)], [n, n], **style)
+            axes.plot([clip(mean)], [n], marker='o', markersize=3.5, clip_on=False, **style)
+            if abs(mean) > reach:
+                axes.text(0.97 * clip(mean), n + 0.1, f'{mean:+.0f}', ha='right' if mean > 0 else 'left', va='bottom', size=6)
+        axes.axvline(0, color=figures.FRAME, linewidth=0.5)
+        axes.set(xlim=(-reach, reach), ylim=(-0.7, len(shown) - 0.3), title=words)
+        axes.set_xlabel('better   <   difference: shares in points, time and robots in %   >   worse')
+        axes.set_yticks(range(len(shown)), [one.name if one.name == one.primary.name else f'{one.name}: {one.primary.name.replace("_", " ")}'
+                                            for one in shown])
+        axes.tick_params(axis='y', length=0)
+        axes.spines['left'].set_visible(False)
+        figures.save(picture, Path(file).with_suffix(''), ['svg'])

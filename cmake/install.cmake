@@ -64,6 +64,8 @@ if(TARGET banyan_cli)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios ${PROJECT_SOURCE_DIR}/studies ${PROJECT_SOURCE_DIR}/parameters ${PROJECT_SOURCE_DIR}/results
           DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program
           FILES_MATCHING PATTERN "*.toml")
+  # The program needs it without the package of Python.
+  install(FILES ${PROJECT_SOURCE_DIR}/hosts/python/banyan/figures.py DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program)
   # The page, if viewer/build has built it.
   if(EXISTS ${PROJECT_SOURCE_DIR}/build/viewer/page/index.html)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/viewer/page/ DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan/viewer COMPONENT program)
@@ -119,7 +121,7 @@ if(Python_VERSION_MAJOR)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "banyan, python3-numpy, python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor})")
 endif()
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-matplotlib")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${PROJECT_DESCRIPTION} (Python)
  Runs, worlds, studies and recordings as arrays and tables; controllers of
  your own, and environments for learning.")
@@ -141,5 +143,5 @@ else()
       "libc6, libstdc++6, libbox2d2, libzstd1, libtomlplusplus3, libpagmo8, libboost-serialization1.74.0, libopenmpi3, librsvg2-2, libcairo2, libcpp-httplib0.11")
 endif()
 # The program does without, but for figures, for mpirun, for films and for the text in pictures.
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox, openmpi-bin, ffmpeg, fonts-dejavu-core, xdg-utils")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-matplotlib, openmpi-bin, ffmpeg, fonts-dejavu-core, xdg-utils")
 include(CPack)

@@ -16,4 +16,10 @@ std::string shipped_scenarios() {
   return fs::is_directory(beside, ignored) ? beside.string() : BANYAN_SCENARIOS_FOLDER;
 }
 
+std::string shipped_figures() {
+  std::error_code ignored;
+  const fs::path beside = installed("figures.py");
+  return fs::is_regular_file(beside, ignored) ? beside.string() : BANYAN_FIGURES_SCRIPT;
+}
+
 }  // namespace banyan::cli

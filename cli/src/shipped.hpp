@@ -13,4 +13,7 @@ namespace banyan::cli {
 // Banyan's own scenarios: the installed ones, in a clone those of the clone.
 [[nodiscard]] std::string shipped_scenarios();
 
+// What draws figures: the installed figures.py, in a clone that of the clone.
+[[nodiscard]] std::string shipped_figures();
+
 }  // namespace banyan::cli

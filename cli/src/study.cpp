@@ -23,6 +23,7 @@
 #include "options.hpp"
 #include "outputs.hpp"
 #include "sbatch.hpp"
+#include "shipped.hpp"
 #include "simulate_run.hpp"
 #include "study_summary.hpp"
 #include "terminal.hpp"
@@ -202,16 +203,16 @@ Watch progress_watch(ProgressLine& progress) {
 }
 
 int finish(const Prepared& prepared, const Gathered& gathered, const Folder& folder, bool quiet) {
-  const auto written = write_results(prepared.study, prepared.plan, gathered, folder);
-  for (const auto& complaint : written.complaints) complain("figure " + complaint);
+  const auto drawn = write_results(prepared.study, prepared.plan, gathered, folder, Drawer{shipped_figures()});
+  if (!drawn.complaint.empty()) complain(drawn.complaint);
   const Results results(prepared.study, prepared.plan, gathered.outcomes);
-  if (!quiet) print_text(study_summary(prepared.study, results, folder, written));
+  if (!quiet) print_text(study_summary(prepared.study, results, folder, drawn));
   if (results.failed() > 0) {
     complain(format("%zu of %zu runs failed: column \"error\" of ", results.failed(), results.rows()) + folder.table() +
              "; --retry tries them again");
     return exit_lost;
   }
-  return written.complaints.empty() ? exit_done : exit_lost;
+  return drawn.complaint.empty() ? exit_done : exit_lost;
 }
 
 // Runs that failed earlier count as well: the exit status is about the shard, not about this call.

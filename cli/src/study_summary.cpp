@@ -79,7 +79,7 @@ std::string comparisons_text(const Study& study, const Results& results) {
 
 }  // namespace
 
-std::string study_summary(const Study& study, const Results& results, const Folder& folder, const Written& written) {
+std::string study_summary(const Study& study, const Results& results, const Folder& folder, const Drawn& drawn) {
   std::string text =
       format("\n  %-32s %8s %11s %13s %13s %11s\n", "", "runs", "complete", "median time", "edge broken", "net split");
   for (std::size_t p = 0; p < study.parts.size(); ++p) {
@@ -104,12 +104,12 @@ std::string study_summary(const Study& study, const Results& results, const Fold
   text += comparisons_text(study, results) + "\n";
   text +=
       "  table      " + folder.table() + "\n  statistics " + folder.statistics() + ", " + folder.comparisons() + "\n";
-  if (!written.figures.empty())
-    text += format("  figures    %zu in ", written.figures.size()) + folder.figures() +
-            " (.svg, .pdf, .png and the .gp to redraw them)\n";
-  if (!written.empty.empty()) {
+  if (!drawn.figures.empty())
+    text += format("  figures    %zu in ", drawn.figures.size()) + folder.figures() +
+            (drawn.complaint.empty() ? " (.svg, .pdf, .png)\n" : " (.json, to be drawn)\n");
+  if (!drawn.empty.empty()) {
     text += "  not drawn, since no run has a value:";
-    for (const auto& name : written.empty) text += " " + name;
+    for (const auto& name : drawn.empty) text += " " + name;
     text += "\n";
   }
   return text;

@@ -12,6 +12,6 @@ namespace banyan::cli {
 // A line per part and value of the compared axis: share complete, median time, broken and split runs. Then a line per
 // part and two of its values: their times compared.
 [[nodiscard]] std::string study_summary(const study::Study& study, const study::Results& results,
-                                        const study::Folder& folder, const study::Written& written);
+                                        const study::Folder& folder, const study::Drawn& drawn);
 
 }  // namespace banyan::cli

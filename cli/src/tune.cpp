@@ -14,6 +14,7 @@
 #include "options.hpp"
 #include "outputs.hpp"
 #include "program.hpp"
+#include "shipped.hpp"
 #include "simulate_run.hpp"
 #include "terminal.hpp"
 
@@ -110,7 +111,7 @@ std::string summary_text(const TunePlan& plan, const study::TuneResult& result, 
   text += "\nResults in " + directory + "/\n";
   text += "  best.toml        the best parameters; lay them over a scenario: banyan run FILE --with best.toml\n";
   text += "  tune.json        everything above, with the whole configuration\n";
-  text += "  generations.csv  fitness over generations; fitness.svg, fitness.pdf, fitness.png: drawn\n";
+  text += "  generations.csv  fitness over generations; its figure is fitness (.json, .svg, .pdf, .png)\n";
   if (plan.optimizer.search == study::Search::nsga2)
     text += "  front.csv        " + plural(result.front, "compromise") + " between the two goals\n";
   return text;
@@ -161,6 +162,7 @@ study::TuneResult search(const TunePlan& plan, study::Workers& workers, const st
   hooks.progress = [&](double share, const std::string& text) {
     if (progress.due()) progress.show(share, text, false);
   };
+  hooks.drawer.script = shipped_figures();
   try {
     return study::tune(plan, workers, directory, hooks);
   } catch (const study::TuneError& e) { throw CommandError(exit_lost, e.what()); }

@@ -158,6 +158,58 @@ TEST_F(StudyProgram, RowsAreThoseOfSingleRuns) {
   EXPECT_TRUE(row.ends_with("," + lines_of(read("single/run.csv")).at(1))) << row;
 }
 
+// ------------------------------------------------------------------------------------- figures --
+
+class StudyFigures : public StudyProgram {
+ protected:
+  void SetUp() override {
+    StudyProgram::SetUp();
+    std::string text =
+        study("w.toml", "1-2", "[[figures]]\nname = \"f\"\nmetric = \"committed\"\nseries = \"algorithm\"\n");
+    write("f.toml", text.erase(text.find("figures = []\n"), 13));
+  }
+  // Finished work is there, whatever becomes of pictures.
+  void expect_the_rest(const std::string& folder) {
+    EXPECT_EQ(json::parse(read(folder + "/study.json"))["missing"], 0);
+    EXPECT_GT(read(folder + "/runs.csv").size(), 100U);
+    EXPECT_EQ(json::parse(read(folder + "/figures/f.json"))["format"], "banyan.figure");
+  }
+};
+
+TEST_F(StudyFigures, AreDrawnInThreeFormats) {
+  const auto outcome = run({"study", "f.toml", "--out", "o"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "figures    1 in o/figures (.svg, .pdf, .png)")) << outcome.out;
+  expect_the_rest("o");
+  EXPECT_TRUE(read("o/figures/f.pdf").starts_with("%PDF") && read("o/figures/f.png").starts_with("\x89PNG"));
+  EXPECT_TRUE(has(read("o/figures/f.svg"), "robots in the tree at the end"));
+}
+
+TEST_F(StudyFigures, WithoutMatplotlibAllElseIsThere) {
+  write("none/matplotlib/__init__.py", "raise ImportError('no matplotlib here')\n");
+  const Circumstances none{.environment = {{"PYTHONPATH", (home_ / "none").string()}}};
+  const auto outcome = run({"study", "f.toml", "--out", "o"}, none);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(has(outcome.err, "matplotlib is not installed (Debian: python3-matplotlib); to draw them: python3 "))
+      << outcome.err;
+  EXPECT_TRUE(outcome.err.ends_with("/figures.py o/figures\n")) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "figures    1 in o/figures (.json, to be drawn)")) << outcome.out;
+  expect_the_rest("o");
+  EXPECT_FALSE(exists("o/figures/f.svg"));
+  const std::string later = outcome.err.substr(outcome.err.find("python3 "));
+  EXPECT_EQ(shell("export PATH=/usr/bin:$PATH; " + later).code, 0);
+  EXPECT_TRUE(exists("o/figures/f.svg"));
+}
+
+TEST_F(StudyFigures, APictureThatCannotBeReplacedIsSaid) {
+  fs::create_directories(home_ / "o/figures/f.png");  // permissions would not stop root
+  write("o/journal/all.jsonl", "");
+  const auto outcome = run({"study", "f.toml", "--out", "o"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(has(outcome.err, "figures were not drawn, or not all: ") && has(outcome.err, "f.png")) << outcome.err;
+  expect_the_rest("o");
+}
+
 // --------------------------------------------------------------------------------- several routes
 
 TEST_F(StudyProgram, ShardsGiveTheTableOfOneProcess) {

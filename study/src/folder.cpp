@@ -259,7 +259,8 @@ Gathered gather(const std::vector<std::string>& sources, const std::string& stud
   return gathered;
 }
 
-Written write_results(const Study& study, const Plan& plan, const Gathered& gathered, const Folder& folder) {
+Drawn write_results(const Study& study, const Plan& plan, const Gathered& gathered, const Folder& folder,
+                    const Drawer& drawer) {
   const Results results(study, plan, gathered.outcomes);
   record::write_file(folder.table(), results.csv(), Existing::replace);
   record::write_file(folder.statistics(), statistics_csv(study, results), Existing::replace);
@@ -269,14 +270,14 @@ Written write_results(const Study& study, const Plan& plan, const Gathered& gath
     std::error_code error;
     std::filesystem::create_directories(folder.figures(), error);
     if (error) throw FileError(folder.figures(), "cannot be created: " + error.message());
-    drawn = draw_figures(study, results, folder.figures());
+    drawn = draw_figures(study, results, folder.figures(), drawer);
   }
   // Last, since it shows that the rest is complete.
   // Paths may hold any bytes.
   const auto json = study_json(study, plan, gathered.outcomes, results, gathered.builds);
   record::write_file(folder.json(), json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n",
                      Existing::replace);
-  return {drawn.figures, drawn.empty, drawn.complaints};
+  return drawn;
 }
 
 }  // namespace banyan::study

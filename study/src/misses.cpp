@@ -49,6 +49,10 @@ bool is_time(std::string_view metric) noexcept {
   return known != nullptr && known->is_time;
 }
 
+bool is_over_bound(std::string_view metric) noexcept {
+  return metric == "committed_ratio" || metric == "oracle_ratio" || metric == "deployment_ratio";
+}
+
 MetricColumn metric_column(const Results& results, const std::string& metric) {
   MetricColumn column{metric, is_boolean(metric), false, results.values(metric), {}, {}};
   column.missed.assign(results.rows(), 0);

@@ -23,4 +23,8 @@ struct MetricColumn {
 // Whether a metric is a time, of which less is better and a miss is later than any.
 [[nodiscard]] bool is_time(std::string_view metric) noexcept;
 
+// Whether a metric is measured against what no mission can be completed with less of. A run that never completed may
+// lie below that, which says nothing.
+[[nodiscard]] bool is_over_bound(std::string_view metric) noexcept;
+
 }  // namespace banyan::study

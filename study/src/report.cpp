@@ -75,7 +75,7 @@ std::string statistics_csv(const Study& study, const Results& results) {
   return text;
 }
 
-Drawn draw_figures(const Study& study, const Results& results, const std::string& folder) {
+Drawn draw_figures(const Study& study, const Results& results, const std::string& folder, const Drawer& drawer) {
   Drawn drawn;
   std::set<std::string> taken;
   for (const auto& plan : study.figures) {
@@ -84,12 +84,12 @@ Drawn draw_figures(const Study& study, const Results& results, const std::string
     for (const auto& each : combinations(*part, plan.each, plan.where)) {
       const std::string name = file_name(plan, each, taken);
       const BoxFigure figure = figure_of(study, results, plan, each);
-      try {
-        if (!figure.panels.empty()) draw(figure, folder + "/" + name);
-        (figure.panels.empty() ? drawn.empty : drawn.figures).push_back(name);
-      } catch (const FigureError& e) { drawn.complaints.push_back(name + ": " + e.what()); }
+      (figure.panels.empty() ? drawn.empty : drawn.figures).push_back(name);
+      if (!figure.panels.empty())
+        record::write_file(folder + "/" + name + ".json", figure_json(figure), record::Existing::replace);
     }
   }
+  if (!drawn.figures.empty()) drawn.complaint = draw_folder(drawer, folder);
   return drawn;
 }
 

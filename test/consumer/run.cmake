@@ -48,7 +48,7 @@ else()
   file(RENAME ${SCRATCH}/first ${prefix})
 endif()
 
-foreach(file IN ITEMS bin/banyan share/banyan/scenarios include/banyan/controller/paper/paper.hpp include/banyan/algorithms/algorithms.hpp
+foreach(file IN ITEMS bin/banyan share/banyan/scenarios share/banyan/figures.py include/banyan/controller/paper/paper.hpp include/banyan/algorithms/algorithms.hpp
                       include/banyan/version.hpp)
   if(NOT EXISTS ${prefix}/${file})
     message(FATAL_ERROR "not installed: ${file}")

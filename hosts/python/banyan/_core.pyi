@@ -21,7 +21,8 @@ def run(
 ) -> dict[str, Any]: ...
 def study(
     path: str, text: str | None, changes: list[tuple[str, str]], controllers: list[tuple[Any, ...]], folder: str, threads: int, shard: int,
-    shards: int, replace: bool, retry: bool, extend: bool, mix_versions: bool, told: Callable[[int, int, int, float], None] | None,
+    shards: int, replace: bool, retry: bool, extend: bool, mix_versions: bool,
+    python_and_figures: tuple[str, str], told: Callable[[int, int, int, float], None] | None,
 ) -> dict[str, Any]: ...
 
 class Scenario:

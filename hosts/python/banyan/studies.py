@@ -7,6 +7,7 @@ import json
 import os
 import sys
 import time
+import warnings
 from pathlib import Path
 from typing import Any, Callable, Mapping
 
@@ -100,11 +101,14 @@ def study(
             retry,
             extend,
             mix_versions,
+            (sys.executable or "python3", str(Path(__file__).with_name("figures.py"))),
             told,
         )
     finally:
         if isinstance(told, _Progress):
             told.end()
+    if done["complaint"]:
+        warnings.warn(done["complaint"], stacklevel=2)
     return frame_or_table(Table.from_csv(done["csv"]), pandas)
 
 

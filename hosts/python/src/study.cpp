@@ -113,7 +113,8 @@ Standing carry_out(const Plan& plan, const std::vector<std::size_t>& todo, const
 py::dict run_study(const std::string& path, const std::optional<std::string>& text,
                    const std::vector<std::pair<std::string, std::string>>& changes, const py::sequence& own,
                    const std::string& folder_path, int threads, std::size_t shard, std::size_t shards, bool replace,
-                   bool retry, bool extend, bool mix_versions, const py::object& told) {
+                   bool retry, bool extend, bool mix_versions,
+                   const std::pair<std::string, std::string>& python_and_figures, const py::object& told) {
   const std::unique_lock alone(one_study, std::try_to_lock);
   if (!alone) throw std::runtime_error("another study is running in this process");
   const auto algorithms = algorithms_from(own);
@@ -147,11 +148,15 @@ py::dict run_study(const std::string& path, const std::optional<std::string>& te
       standing = carry_out(plan, todo, study, folder, wanted, told);
       gathered = gather(journals_in(folder.path), study.name);
     }
-    if (wanted.shard.whole() && !standing.stopped) static_cast<void>(write_results(study, plan, gathered, folder));
+    const Drawer drawer{python_and_figures.second, {python_and_figures.first}};
+    std::string complaint;
+    if (wanted.shard.whole() && !standing.stopped)
+      complaint = write_results(study, plan, gathered, folder, drawer).complaint;
     const Results results(study, plan, gathered.outcomes);
     const std::string csv = results.csv();
     const py::gil_scoped_acquire interpreter;
     told_back["csv"] = csv;
+    told_back["complaint"] = complaint;
     told_back["missing"] = results.missing();
     told_back["failed"] = results.failed();
   }
@@ -166,7 +171,7 @@ py::dict run_study(const std::string& path, const std::optional<std::string>& te
 void bind_study(py::module_& m) {
   m.def("study", &run_study, py::arg("path"), py::arg("text"), py::arg("changes"), py::arg("controllers"),
         py::arg("folder"), py::arg("threads"), py::arg("shard"), py::arg("shards"), py::arg("replace"),
-        py::arg("retry"), py::arg("extend"), py::arg("mix_versions"), py::arg("told"));
+        py::arg("retry"), py::arg("extend"), py::arg("mix_versions"), py::arg("python_and_figures"), py::arg("told"));
 }
 
 }  // namespace banyan::python

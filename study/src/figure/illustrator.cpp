@@ -43,14 +43,6 @@ Labels labels_of(const Part& part, const std::string& name, const Where& where) 
   return labels;
 }
 
-// "reading: literal, line of sight off"
-std::string in_words(const Part& part, const Labels& names, const Labels& labels) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i > 0 ? ", " : "") + with_value(axis_of(part, names[i])->title, labels[i]);
-  return text;
-}
-
 // ------------------------------------------------------------------------------------- colours --
 
 // The algorithm that each value of an axis runs; none if a value runs several.
@@ -111,7 +103,9 @@ class Illustrator {
     places_ = {combinations(*axes_, x_, plan.where), labels_of(*axes_, plan.panels, plan.where),
                labels_of(*axes_, plan.series, plan.where)};
     for (std::size_t row = 0; row < results.rows(); ++row) {
-      if (results.planned(row).part == part_ && picked(row)) rows_.push_back(row);
+      if (results.planned(row).part != part_ || !where(row)) continue;
+      for (const std::string& axis : plan.each) drawn_[axis].insert(results.label(row, axis));
+      if (of_each(row)) rows_.push_back(row);
     }
     looks_ = looks_of(study, results, part_, plan.series);
     confidence_ = study.statistics.confidence;
@@ -119,8 +113,8 @@ class Illustrator {
 
   BoxFigure figure() {
     BoxFigure figure;
-    figure.title = in_words(*axes_, plan_.each, each_);
-    if (!plan_.title.empty()) figure.title = plan_.title + (each_.empty() ? "" : " (" + figure.title + ")");
+    figure.title = each_in_words();
+    if (!plan_.title.empty()) figure.title = plan_.title + (figure.title.empty() ? "" : " (" + figure.title + ")");
     figure.width_in = plan_.width_in;
     for (const std::string& label : places_.series) {
       const auto look = std::find_if(looks_.begin(), looks_.end(), [&](const Series& s) { return s.name == label; });
@@ -130,17 +124,36 @@ class Illustrator {
     for (std::size_t m = 0; m < plan_.metrics.size(); ++m) add_metric(figure, m);
     arrange(figure);
     leave_out_empty(figure);
+    // One panel need not be told from others.
+    const bool one = plan_.metrics.size() == 1 ? figure.panels.size() == 1 : figure.columns == 1;
+    if (!plan_.panels.empty() && one)
+      for (Panel& panel : figure.panels) panel.title.clear();
     return figure;
   }
 
  private:
-  [[nodiscard]] bool picked(std::size_t row) const {
+  [[nodiscard]] bool of_each(std::size_t row) const {
     for (std::size_t i = 0; i < each_.size(); ++i) {
       if (results_.label(row, plan_.each[i]) != each_[i]) return false;
     }
+    return true;
+  }
+
+  [[nodiscard]] bool where(std::size_t row) const {
     return std::all_of(plan_.where.begin(), plan_.where.end(), [&](const auto& w) {
       return index_in(w.second, results_.label(row, w.first)) < w.second.size();
     });
+  }
+
+  // "reading: literal, line of sight off". An axis of which all figures together show one value tells nothing.
+  [[nodiscard]] std::string each_in_words() const {
+    std::string text;
+    for (std::size_t i = 0; i < each_.size(); ++i) {
+      const auto labels = drawn_.find(plan_.each[i]);
+      if (labels == drawn_.end() || labels->second.size() < 2) continue;
+      text += (text.empty() ? "" : ", ") + with_value(axis_of(*axes_, plan_.each[i])->title, each_[i]);
+    }
+    return text;
   }
 
   // The last axis varies fastest: it labels the groups, the others what lies farther out.
@@ -152,8 +165,11 @@ class Illustrator {
     figure.x_label = axis_of(*axes_, x_.back())->title;
     for (const auto& group : places_.groups) figure.groups.push_back(group.back());
     for (std::size_t i = x_.size() - 1; i-- > 0;) {
-      OuterLabels outer{axis_of(*axes_, x_[i])->title, {}};
-      for (const auto& group : places_.groups) outer.labels.push_back(group[i]);
+      OuterLabels outer{axis_of(*axes_, x_[i])->title, {}, {}};
+      for (const auto& group : places_.groups) {
+        outer.labels.push_back(group[i]);
+        outer.full.push_back(with_value(outer.title, group[i]));
+      }
       figure.outer.push_back(std::move(outer));
     }
   }
@@ -165,6 +181,7 @@ class Illustrator {
     if (metric.scale != FigureScale::linear) measure.scale = Scale::log;
     if (metric.scale == FigureScale::ratio) measure.line = 1.0;
     if (is_boolean(metric.column)) measure.share_confidence = confidence_;
+    measure.late = !is_over_bound(metric.column);
     measure.minimum = plan_.y_minimum;
     measure.maximum = plan_.y_maximum;
     figure.measures.push_back(measure);
@@ -190,9 +207,13 @@ class Illustrator {
     const MetricColumn column = metric_column(results_, metric.column);
     const bool late = is_time(metric.column);  // a miss counts as later than all others
     if (metric.scale == FigureScale::ratio) return fill_ratios(figure, m, column, late);
+    const Values complete = results_.values("complete");
+    const bool over_bound = is_over_bound(metric.column);
     for (const std::size_t row : rows_) {
       if (column.missed[row] != 0) {
         if (late) ++box_of(figure, m, row).missed;
+      } else if (over_bound && complete[row] == 0.0) {
+        ++box_of(figure, m, row).missed;
       } else if (std::isfinite(column.value[row])) {
         box_of(figure, m, row).values.push_back(column.value[row]);
       }
@@ -270,7 +291,10 @@ class Illustrator {
       if (any_box(figure, [&](std::size_t, std::size_t at, std::size_t) { return at == g; })) continue;
       const auto at = static_cast<std::ptrdiff_t>(g);
       figure.groups.erase(figure.groups.begin() + at);
-      for (OuterLabels& outer : figure.outer) outer.labels.erase(outer.labels.begin() + at);
+      for (OuterLabels& outer : figure.outer) {
+        outer.labels.erase(outer.labels.begin() + at);
+        outer.full.erase(outer.full.begin() + at);
+      }
       for (Panel& panel : figure.panels) panel.boxes.erase(panel.boxes.begin() + at);
     }
     leave_out_panels(figure);
@@ -306,7 +330,8 @@ class Illustrator {
   const Part* axes_ = nullptr;
   Labels x_;
   Places places_;
-  std::vector<std::size_t> rows_;  // that the figure is of
+  std::vector<std::size_t> rows_;                       // that the figure is of
+  std::map<std::string, std::set<std::string>> drawn_;  // the labels of each axis of `each` that have runs
   std::vector<Series> looks_;
   double confidence_ = 0.95;
 };

@@ -169,7 +169,7 @@ class TuningRun {
       front = judged_front();
     }});
     result.evaluations = plan_.evaluations() * plan_.optimizer.islands;
-    write_results(directory_, plan_, history_, front, result);
+    write_results(directory_, plan_, history_, front, hooks_.drawer, result);
   }
   // With what its goals are made of: known from the search, but for what was evaluated before it was resumed.
   [[nodiscard]] std::vector<FrontPoint> judged_front() {

@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 using config::number_text;
 
 // The file that identifies them goes last: if this is stopped half-way, the rest is still recognised.
-constexpr const char* files[] = {"generations.csv", "best.toml",   "front.csv",        "fitness.gp", "fitness.svg",
+constexpr const char* files[] = {"generations.csv", "best.toml",   "front.csv",        "fitness.json", "fitness.svg",
                                  "fitness.pdf",     "fitness.png", "checkpoint.jsonl", "tune.json"};
 
 bool is_there(const std::string& path) {
@@ -248,18 +248,16 @@ std::vector<FrontPoint> front_of(const TunePlan& plan, const std::vector<IslandS
 }
 
 void write_results(const std::string& directory, const TunePlan& plan, const std::vector<GenerationRow>& history,
-                   const std::vector<FrontPoint>& front, TuneResult& result) {
+                   const std::vector<FrontPoint>& front, const Drawer& drawer, TuneResult& result) {
   constexpr auto replace = record::Existing::replace;
   record::write_file(directory + "/best.toml", best_toml(plan, result.candidates.front()), replace);
   if (plan.optimizer.search == Search::nsga2) {
     record::write_file(directory + "/front.csv", front_csv(plan, front), replace);
     result.front = front.size();
   }
-  try {
-    draw(fitness_figure(plan, history), directory + "/fitness");
-  } catch (const FigureError& e) {
-    result.warnings.push_back(std::string("the figure could not be drawn: ") + e.what());
-  }
+  record::write_file(directory + "/fitness.json", figure_json(fitness_figure(plan, history)), replace);
+  if (std::string complaint = draw_folder(drawer, directory); !complaint.empty())
+    result.warnings.push_back(std::move(complaint));
   record::write_file(directory + "/tune.json", result_json(plan, result), replace);
   std::error_code ignored;  // if it stays, it does no harm
   std::filesystem::remove(checkpoint_path(directory), ignored);

@@ -27,6 +27,6 @@ struct FrontPoint {
 // All files of a finished tuning, tune.json last, since it marks the tuning as finished.
 // What could not be drawn is a warning of `result`. Throws record::FileError.
 void write_results(const std::string& directory, const TunePlan& plan, const std::vector<GenerationRow>& history,
-                   const std::vector<FrontPoint>& front, TuneResult& result);
+                   const std::vector<FrontPoint>& front, const Drawer& drawer, TuneResult& result);
 
 }  // namespace banyan::study

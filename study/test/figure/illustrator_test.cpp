@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "../planned_study.hpp"
@@ -48,10 +49,13 @@ std::vector<double> sorted(std::vector<double> values) {
 const std::string time_figure =
     "[[figures]]\nmetric = \"normalized_time\"\nx = \"r\"\nseries = \"algorithm\"\npanels = \"los\"\n";
 
+// From the file that is drawn, against the table that is left.
 TEST_F(Illustrations, BoxesHoldTheRunsOfTheTableAndItsMisses) {
   prepare(time_figure);
-  const BoxFigure drawn = figure();
-  ASSERT_EQ(drawn.panels.size(), 2U);
+  (void)draw_figures(study_, results(), path(""));
+  const auto json = nlohmann::json::parse(read("normalized_time.json"));
+  EXPECT_EQ(read("normalized_time.json"), figure_json(figure()));
+  ASSERT_EQ(json["panels"].size(), 2U);
   std::size_t misses = 0, boxes = 0;
   for (std::size_t p = 0; p < 2; ++p) {
     for (std::size_t g = 0; g < 2; ++g) {
@@ -60,12 +64,13 @@ TEST_F(Illustrations, BoxesHoldTheRunsOfTheTableAndItsMisses) {
         std::size_t missed = 0;
         for (const TableRow& row : table()) {
           if (row.at("line_of_sight") != (p == 0 ? "false" : "true") || row.at("r") != (g == 0 ? "1.5" : "1")) continue;
-          if (row.at("algorithm") != drawn.series[s].name) continue;
+          if (row.at("algorithm") != json["series"][s]["name"]) continue;
           if (row.at("complete") == "true") times.push_back(std::stod(row.at("normalized_time")));
           else ++missed;
         }
-        EXPECT_EQ(sorted(drawn.panels[p].boxes[g][s].values), sorted(times));
-        EXPECT_EQ(drawn.panels[p].boxes[g][s].missed, missed);
+        const auto& box = json["panels"][p]["boxes"][g][s];
+        EXPECT_EQ(sorted(box["values"].get<std::vector<double>>()), sorted(times));
+        EXPECT_EQ(box["missed"], missed);
         EXPECT_EQ(times.size() + missed, 6U);
         misses += missed;
         ++boxes;
@@ -74,10 +79,10 @@ TEST_F(Illustrations, BoxesHoldTheRunsOfTheTableAndItsMisses) {
   }
   EXPECT_EQ(boxes, 12U);
   EXPECT_GT(misses, 12U);
-  EXPECT_EQ(drawn.panels[1].title, "line of sight on");
-  EXPECT_EQ(drawn.x_label, "radius r (m)");
-  EXPECT_EQ(drawn.groups, (std::vector<std::string>{"1.5", "1"}));
-  EXPECT_EQ(drawn.measures.at(0).label, "completion time / limit");
+  EXPECT_EQ(json["panels"][1]["title"], "line of sight on");
+  EXPECT_EQ(json["x_label"], "radius r (m)");
+  EXPECT_EQ(json["groups"], (std::vector<std::string>{"1.5", "1"}));
+  EXPECT_EQ(json["measures"][0]["label"], "completion time / limit");
 }
 
 TEST_F(Illustrations, WhatIsNoTimeHasNoMisses) {
@@ -170,7 +175,7 @@ TEST_F(Illustrations, NothingEmptyIsDrawn) {
   }
   const BoxFigure drawn = figure();
   ASSERT_EQ(drawn.panels.size(), 1U);
-  EXPECT_EQ(drawn.panels[0].title, "line of sight off");
+  EXPECT_EQ(drawn.panels[0].title, "") << "there is no other to tell it from";
   ASSERT_EQ(drawn.series.size(), 2U);
   EXPECT_EQ(drawn.series[1].name, "outwards");
   EXPECT_EQ(drawn.groups.size(), 2U) << "there are runs of outwards at 1.5 m";
@@ -178,8 +183,8 @@ TEST_F(Illustrations, NothingEmptyIsDrawn) {
   EXPECT_TRUE(figure().panels.empty());
   const auto report = draw_figures(study_, results(), path(""));
   EXPECT_EQ(report.empty, (std::vector<std::string>{"normalized_time"}));
-  EXPECT_TRUE(report.figures.empty() && report.complaints.empty());
-  EXPECT_FALSE(exists("normalized_time.gp"));
+  EXPECT_TRUE(report.figures.empty() && report.complaint.empty());
+  EXPECT_FALSE(exists("normalized_time.json"));
 }
 
 TEST_F(Illustrations, InAGridRowsAndColumnsWithoutRunsAreLeftOut) {
@@ -193,7 +198,7 @@ TEST_F(Illustrations, InAGridRowsAndColumnsWithoutRunsAreLeftOut) {
   drawn = figure();
   ASSERT_EQ(drawn.panels.size(), 1U);
   EXPECT_EQ(drawn.columns, 1U);
-  EXPECT_EQ(drawn.panels[0].title, "line of sight on");
+  EXPECT_EQ(drawn.panels[0].title, "");
 }
 
 // Each algorithm has the colour of its place in the program's list, whatever the study shows of it.
@@ -242,7 +247,50 @@ TEST_F(Illustrations, EachCombinationIsAFigureWithItsOwnName) {
   EXPECT_EQ(drawn.figures,
             (std::vector<std::string>{"f-los-off-r-1.5", "f-los-off-r-1", "f-los-on-r-1.5", "f-los-on-r-1"}));
   for (const std::string& name : drawn.figures) {
-    for (const char* ending : {".gp", ".svg", ".pdf", ".png"}) EXPECT_TRUE(exists(name + ending)) << name + ending;
+    EXPECT_TRUE(exists(name + ".json")) << name;
+    EXPECT_FALSE(exists(name + ".svg")) << "nobody was asked to draw";
+  }
+}
+
+// An axis that is the same throughout is not worth a word.
+TEST_F(Illustrations, TitlesNameWhatDiffers) {
+  const std::string each =
+      "[[figures]]\nmetric = \"normalized_time\"\nseries = \"algorithm\"\neach = [\"los\", \"r\"]\n";
+  prepare(each);
+  EXPECT_EQ(figure({"on", "1.5"}).title, "line of sight on, radius r = 1.5 m");
+  prepare(each + "where = { los = \"on\" }\n");
+  EXPECT_EQ(figure({"on", "1.5"}).title, "radius r = 1.5 m");
+  prepare(each + "title = \"Times\"\n");
+  for (const PlannedRow& row : plan_.rows)
+    if (row.values[1] == 0 || row.values[2] == 1) outcomes_.erase(plan_.runs[row.run].id);  // no runs but on, 1.5
+  EXPECT_EQ(figure({"on", "1.5"}).title, "Times");
+}
+
+// A run that never completed may have fewer robots than any that did, which is no feat.
+TEST_F(Illustrations, NoBoundIsUndercutByRunsThatNeverCompleted) {
+  for (const char* metric : {"committed_ratio", "oracle_ratio", "deployment_ratio"}) {
+    prepare("[[figures]]\nmetric = \"" + std::string(metric) + "\"\nseries = \"algorithm\"\nx = \"r\"\n");
+    for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
+      finish(plan_.runs[i], [&](auto& run) {
+        run.complete = i % 3 > 0;
+        const double ratio = run.complete ? 1.0 + static_cast<double>(i) / 100.0 : 0.5;
+        run.committed_ratio = run.oracle_ratio = run.deployment_ratio = ratio;
+      });
+    }
+    const BoxFigure drawn = figure();
+    EXPECT_FALSE(drawn.measures[0].late);
+    std::size_t runs = 0, missed = 0;
+    for (const auto& group : drawn.panels[0].boxes) {
+      for (const BoxRuns& box : group) {
+        for (const double value : box.values) EXPECT_GE(value, 1.0) << metric;
+        runs += box.values.size();
+        missed += box.missed;
+      }
+    }
+    const auto rows = table();
+    const auto complete = [](const TableRow& row) { return row.at("complete") == "true"; };
+    EXPECT_EQ(runs, static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), complete))) << metric;
+    EXPECT_EQ(runs + missed, rows.size()) << metric;
   }
 }
 

@@ -158,18 +158,12 @@ class Tune : public ::testing::Test {
     std::string pattern = (fs::temp_directory_path() / "banyan-tune-XXXXXX").string();
     ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
     home_ = pattern;
-    // Drawing takes longer than all the rest; DrawsItsFigure is for that.
-    path_ = std::getenv("PATH");
-    ::setenv("PATH", home_.c_str(), 1);
     write("world.toml",
           "name = \"world\"\n[mission]\nalgorithm = \"outwards\"\ntime_limit_s = 10.0\n[swarm]\nrobots = "
           "5\n[targets]\ncount = 2\nradius_m = "
           "1.0\n");
   }
-  void TearDown() override {
-    ::setenv("PATH", path_.c_str(), 1);
-    fs::remove_all(home_);
-  }
+  void TearDown() override { fs::remove_all(home_); }
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(home_ / name, std::ios::binary) << text;
   }
@@ -203,7 +197,6 @@ class Tune : public ::testing::Test {
     EXPECT_TRUE(has(config::to_string(loaded.problems[0]), part)) << config::to_string(loaded.problems[0]);
   }
   fs::path home_;
-  std::string path_;
 };
 
 TEST_F(Tune, ReadsAFile) {
@@ -531,7 +524,7 @@ std::string optimizer(const char* algorithm, int generations = 4) {
          "\npopulation = 8\nislands = 2\n";
 }
 
-// Everything that a tuning leaves and that does not depend on gnuplot.
+// Everything that a tuning leaves and that does not depend on the program that draws.
 std::vector<std::string> outcome_of(const fs::path& directory) {
   std::vector<std::string> files;
   for (const char* name : {"best.toml", "generations.csv", "front.csv", "tune.json"})
@@ -647,12 +640,16 @@ TEST_P(TuneSearch, TheBestSoFarNeverGetsWorse) {
 TEST_F(Tune, DrawsItsFigureOrSaysThatItCannot) {
   const auto p = plan(file(optimizer("sga")));
   const auto workers = thread_workers(bowl, 2);
-  const auto without = tune(p, *workers, folder("without"));
+  TuneHooks hooks;
+  hooks.drawer = {BANYAN_FIGURES_SCRIPT, {"/no/python"}};
+  const auto without = tune(p, *workers, folder("without"), hooks);
   ASSERT_EQ(without.warnings.size(), 1U);
-  EXPECT_TRUE(has(without.warnings[0], "figure")) << without.warnings[0];
+  EXPECT_TRUE(has(without.warnings[0], "figures were not drawn")) << without.warnings[0];
   EXPECT_TRUE(tune_finished((home_ / "without").string()));
-  ::setenv("PATH", path_.c_str(), 1);
-  EXPECT_TRUE(tune(p, *workers, folder("with")).warnings.empty());
+  EXPECT_TRUE(fs::exists(home_ / "without/fitness.json"));
+  hooks.drawer.pythons = {"/usr/bin/python3"};
+  EXPECT_TRUE(tune(p, *workers, folder("with"), hooks).warnings.empty());
+  EXPECT_EQ(contents(home_ / "with/fitness.json"), contents(home_ / "without/fitness.json"));
   const auto figure = contents(home_ / "with/fitness.svg");
   EXPECT_TRUE(has(figure, "best, island 1")) << figure.substr(0, 500);
   EXPECT_TRUE(has(figure, "mean of the populations"));
@@ -662,7 +659,7 @@ TEST_F(Tune, ManyIslandsShareACurve) {
   const auto p = plan(file("generations = 2\npopulation = 2\nislands = 9\n"));
   const auto workers = thread_workers(bowl, 2);
   (void)tune(p, *workers, folder("out"));
-  EXPECT_TRUE(has(contents(home_ / "out/fitness.gp"), "best, mean and range of the islands"));
+  EXPECT_TRUE(has(contents(home_ / "out/fitness.json"), "best, mean and range of the islands"));
 }
 
 TEST_F(Tune, AnotherSeedSearchesElsewhere) {
@@ -879,7 +876,7 @@ TEST_F(Tune, KnowsItsOwnFilesFromOthers) {
   EXPECT_EQ(foreign(), "");
   write("out/mine.txt", "mine");
   EXPECT_EQ(foreign(), "");
-  for (const char* name : {"best.toml", "generations.csv", "front.csv", "fitness.gp", "fitness.svg", "fitness.png"}) {
+  for (const char* name : {"best.toml", "generations.csv", "front.csv", "fitness.json", "fitness.svg", "fitness.png"}) {
     write(std::string("out/") + name, "mine");
     EXPECT_EQ(foreign(), name);
     fs::remove(fs::path(directory) / name);

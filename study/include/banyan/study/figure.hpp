@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Figures for print: panels of box plots, or curves, drawn by gnuplot.
+// Figures for print: panels of box plots, or curves. What is drawn is decided here and left as JSON
+// (docs/file-formats.md); how it looks, by hosts/python/banyan/figures.py.
 #pragma once
 
 #include <cstddef>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -12,8 +12,7 @@
 
 namespace banyan::study {
 
-// All texts may hold any bytes and "\n"; they are shown as they are, without gnuplot's markup. What is
-// too long for its place is broken into lines, turned, or ends in an ellipsis.
+// All texts may hold any bytes and "\n".
 
 inline constexpr double column_in = 3.5, page_in = 7.0;  // widths for print, inches
 inline constexpr std::size_t most_series = 12;           // that can be told apart
@@ -29,7 +28,7 @@ struct Series {  // one colour, named in the legend
 // The runs behind one box.
 struct BoxRuns {
   std::vector<double> values;  // finite, in any order
-  std::size_t missed = 0;      // further runs: each later than every value
+  std::size_t missed = 0;      // further runs
 };
 // What is shown upwards.
 struct Measure {
@@ -38,6 +37,7 @@ struct Measure {
   std::optional<double> minimum, maximum;  // else from the values; positive on a logarithmic scale
   std::optional<double> line;              // across the panel, such as 1 for ratios
   std::optional<double> share_confidence;  // values are 0 or 1: their share with Wilson's interval, no box
+  bool late = true;                        // a run that missed is later than every value; else in no box
 };
 struct Panel {
   std::string title;                        // "r = 3 m"
@@ -46,8 +46,8 @@ struct Panel {
 };
 // What several groups have in common, written below their labels: a label per group.
 struct OuterLabels {
-  std::string title;                // "targets T"
-  std::vector<std::string> labels;  // "2", "2", "3", "3"
+  std::string title;                      // "targets T"
+  std::vector<std::string> labels, full;  // "2", "2", "3", "3"; "targets T = 2", ...: where there is room
 };
 struct BoxFigure {
   std::string title;                // "" for none
@@ -75,27 +75,19 @@ struct CurveFigure {
   std::optional<double> y_minimum, y_maximum;
 };
 
-// gnuplot is missing or failed; what() holds what it said.
-class FigureError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
+// The whole file; the same bytes for the same figure, and numbers read back as they are. std::invalid_argument for a
+// figure without panel, group, series or measure, with too many series, with values that are not finite, or with sizes
+// that differ.
+[[nodiscard]] std::string figure_json(const BoxFigure& figure);
+[[nodiscard]] std::string figure_json(const CurveFigure& figure);
+
+// What makes pictures of figures: figures.py, by the first of these interpreters that has matplotlib.
+struct Drawer {
+  std::string script;  // "": no pictures are made
+  std::vector<std::string> pythons{"python3", "/usr/bin/python3"};
 };
-
-// Writes `stem`.gp (the script with its data: a figure can be changed by hand and drawn again), and
-// `stem`.svg, .pdf and .png, which the script draws: of the same size, texts of 8 pt, the png with 300
-// pixels an inch. A box spans the quartiles with a line at the median; whiskers reach to the last
-// value within 1.5 times the box (Tukey); values beyond are points. Where boxes would be thinner than
-// 4.5 pt, a point at the median and a thick line take their place. Runs that missed count as later
-// than all others: a box may be open at the top, and how many there are stands above it.
-//
-// Throws record::FileError if a file cannot be written, FigureError if gnuplot is missing or fails:
-// then the script is there, and pictures of an earlier figure stay as they were. Files of these names
-// are replaced, each whole. std::invalid_argument, and no file, for a figure without panel, group,
-// series or measure, with too many series, with values that are not finite, or with sizes that differ.
-void draw(const BoxFigure& figure, const std::string& stem);
-void draw(const CurveFigure& figure, const std::string& stem);
-
-// Its texts and sizes do not depend on gnuplot: the width that draw() gives the figure, in inches.
-[[nodiscard]] double width_in(const BoxFigure& figure);
+// Draws all figures of a folder, and waits. Returns what went wrong, with what Python said and the command that draws
+// them later; "" if nothing did. Then pictures of earlier figures stay as they were.
+[[nodiscard]] std::string draw_folder(const Drawer& drawer, const std::string& folder);
 
 }  // namespace banyan::study

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "banyan/study/plan.hpp"
+#include "banyan/study/report.hpp"
 #include "banyan/study/results.hpp"
 
 namespace banyan::study {
@@ -61,12 +62,9 @@ void throw_away(const Folder& folder);
 // "0.2.0 (git 123abc)" of this program.
 [[nodiscard]] std::string this_build();
 
-// Writes everything that is made from the journals, replacing what was made before; returns what
-// went wrong with the figures. Throws record::FileError.
-struct Written {
-  std::vector<std::string> figures, empty;  // drawn; not drawn, since no run has a value
-  std::vector<std::string> complaints;
-};
-Written write_results(const Study& study, const Plan& plan, const Gathered& gathered, const Folder& folder);
+// Writes everything that is made from the journals, replacing what was made before; returns what became of the figures.
+// Throws record::FileError.
+Drawn write_results(const Study& study, const Plan& plan, const Gathered& gathered, const Folder& folder,
+                    const Drawer& drawer = {});
 
 }  // namespace banyan::study

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "banyan/study/figure.hpp"
 #include "banyan/study/results.hpp"
 
 namespace banyan::study {
@@ -14,12 +15,11 @@ namespace banyan::study {
 // A row per group, pair of values of the axis `compare` and metric (compare.hpp).
 [[nodiscard]] std::string comparisons_csv(const Study& study, const Results& results);
 
-// Draws the study's figures into `folder`; returns what went wrong, if anything (no gnuplot), and
-// the names of the figures drawn, and of those for which no run has a value. Throws record::FileError.
+// Writes the study's figures into `folder`, NAME.json, and draws them. Throws record::FileError.
 struct Drawn {
-  std::vector<std::string> figures, empty;
-  std::vector<std::string> complaints;
+  std::vector<std::string> figures, empty;  // written; not, since no run has a value
+  std::string complaint;                    // of the drawer, "" if all could be drawn
 };
-Drawn draw_figures(const Study& study, const Results& results, const std::string& folder);
+Drawn draw_figures(const Study& study, const Results& results, const std::string& folder, const Drawer& drawer = {});
 
 }  // namespace banyan::study

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "banyan/config/config.hpp"
+#include "banyan/study/figure.hpp"
 #include "banyan/study/workers.hpp"
 
 namespace banyan::study {
@@ -198,6 +199,7 @@ struct TuneHooks {
   std::function<bool()> stopped;  // asked about ten times a second; true: leave soon
   // The share of what this call has to do that is done, in [0, 1], and words; as often.
   std::function<void(double share, const std::string& text)> progress;
+  Drawer drawer;
 };
 
 // Whether `directory` holds the results of a tuning that came to its end.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Starting gnuplot (gnuplot.hpp).
-#include "gnuplot.hpp"
+// Another program, run to its end (child_program.hpp).
+#include "child_program.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -12,20 +12,13 @@
 #include <cerrno>
 #include <system_error>
 
-#include "banyan/study/figure.hpp"
-
 namespace banyan::study {
 
 namespace {
 
-constexpr std::size_t most_said = 4096;  // bytes of gnuplot's messages that are kept
+constexpr std::size_t most_said = 4096;  // bytes of its messages that are kept
 
-std::string reason(int error_number) { return std::generic_category().message(error_number); }
-
-[[noreturn]] void cannot_start(int error_number) {
-  if (error_number == ENOENT) throw FigureError("gnuplot is not installed (Debian: gnuplot-nox), or not in PATH");
-  throw FigureError("gnuplot cannot be started: " + reason(error_number));
-}
+[[noreturn]] void fail(int error_number) { throw std::system_error(error_number, std::generic_category()); }
 
 struct Pipe {
   int read = -1, write = -1;
@@ -33,7 +26,7 @@ struct Pipe {
   Pipe() {
     std::array<int, 2> ends{};
     // Closed on exec: a child that another thread starts meanwhile must not hold our end open.
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) cannot_start(errno);
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail(errno);
     read = ends[0];
     write = ends[1];
   }
@@ -49,7 +42,7 @@ struct Pipe {
   }
 };
 
-// posix_spawn's settings: what gnuplot inherits.
+// posix_spawn's settings: what the program inherits.
 class SpawnSettings {
  public:
   explicit SpawnSettings(int messages) {
@@ -62,7 +55,7 @@ class SpawnSettings {
     if (error == 0) error = default_signals();
     if (error != 0) {
       destroy();
-      cannot_start(error);
+      fail(error);
     }
   }
   SpawnSettings(const SpawnSettings&) = delete;
@@ -73,7 +66,7 @@ class SpawnSettings {
   [[nodiscard]] const posix_spawnattr_t* attributes() const noexcept { return &attributes_; }
 
  private:
-  // Otherwise a thread that blocks signals would start a gnuplot that Ctrl-C cannot end.
+  // Otherwise a thread that blocks signals would start a program that Ctrl-C cannot end.
   int default_signals() {
     sigset_t none, ended_by;
     ::sigemptyset(&none);
@@ -93,7 +86,7 @@ class SpawnSettings {
   posix_spawnattr_t attributes_{};
 };
 
-// Reads until gnuplot ends. Output beyond the first bytes is read, too, or it would wait for ever.
+// Reads until the program ends. The last bytes are kept: an error stands at the end.
 std::string read_all(int descriptor) {
   std::string said;
   std::array<char, 4096> buffer{};
@@ -102,43 +95,45 @@ std::string read_all(int descriptor) {
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) break;
     said.append(buffer.data(), static_cast<std::size_t>(got));
-    if (said.size() > most_said) said.resize(most_said);
+    if (said.size() > most_said) said.erase(0, said.size() - most_said);
   }
   while (!said.empty() && (said.back() == '\n' || said.back() == ' ')) said.pop_back();
   return said;
 }
 
-// "" for success.
-std::string how_it_ended(pid_t child) {
+void wait_for(pid_t child, ChildEnd& end) {
   int status = 0;
   while (::waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) return "with an unknown result: " + reason(errno);
+    if (errno == EINTR) continue;
+    end.status = -1;
+    end.ended = "with an unknown result: " + std::generic_category().message(errno);
+    return;
   }
-  if (WIFSIGNALED(status)) return "by signal " + std::to_string(WTERMSIG(status));
-  if (WEXITSTATUS(status) != 0) return "with status " + std::to_string(WEXITSTATUS(status));
-  return "";
+  end.status = WIFSIGNALED(status) ? -1 : WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) end.ended = "by signal " + std::to_string(WTERMSIG(status));
+  else if (end.status != 0) end.ended = "with status " + std::to_string(end.status);
 }
 
 }  // namespace
 
-void run_gnuplot(const std::string& script, const std::string& output) {
-  std::string program = "gnuplot", no_settings = "-d", call = "-c", target = output;
-  // gnuplot would take "-x.gp" for an option and "<x.gp" for a command.
-  std::string path = script.starts_with('/') ? script : "./" + script;
-  const std::array<char*, 6> arguments{program.data(), no_settings.data(), call.data(),
-                                       path.data(),    target.data(),      nullptr};
-  Pipe pipe;
-  const SpawnSettings settings(pipe.write);
-  pid_t child = 0;
-  const int error =
-      ::posix_spawnp(&child, program.c_str(), settings.actions(), settings.attributes(), arguments.data(), environ);
-  if (error != 0) cannot_start(error);
-  pipe.close_write();
-  const std::string said = read_all(pipe.read);
-  const std::string ended = how_it_ended(child);
-  if (!ended.empty()) {
-    throw FigureError("gnuplot ended " + ended + " at " + script + (said.empty() ? "" : ":\n" + said));
-  }
+ChildEnd run_program(std::vector<std::string> words) {
+  std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  ChildEnd end;
+  try {
+    Pipe pipe;
+    const SpawnSettings settings(pipe.write);
+    pid_t child = 0;
+    const int error =
+        ::posix_spawnp(&child, arguments.front(), settings.actions(), settings.attributes(), arguments.data(), environ);
+    if (error != 0) fail(error);
+    pipe.close_write();
+    end.said = read_all(pipe.read);
+    wait_for(child, end);
+  } catch (const std::system_error& error) { end.start_error = error.code().value(); }
+  return end;
 }
 
 }  // namespace banyan::study
