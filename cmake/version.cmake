@@ -8,7 +8,7 @@ add_custom_target(banyan_git_id
           -P ${PROJECT_SOURCE_DIR}/cmake/git_id.cmake
   BYPRODUCTS ${version_dir}/version.cpp
   COMMENT "git id" VERBATIM)
-add_library(banyan_version STATIC ${version_dir}/version.cpp)
+banyan_library(banyan_version STATIC ${version_dir}/version.cpp)
 add_library(banyan::version ALIAS banyan_version)
 add_dependencies(banyan_version banyan_git_id)
 target_include_directories(banyan_version PUBLIC
