@@ -20,9 +20,9 @@ namespace {
 }
 
 // A function of librsvg or cairo. They bring forty libraries along, which take longer to load than most commands take:
-// so that is done when the first picture becomes pixels.
+// so the first picture does that.
 template <class Function> Function* loaded(const char* name) {
-  static void* const library = ::dlopen("librsvg-2.so.2", RTLD_LAZY);
+  void* const library = ::dlopen("librsvg-2.so.2", RTLD_LAZY);
   void* const function = library == nullptr ? nullptr : ::dlsym(library, name);
   if (function == nullptr) fail(::dlerror());
   return reinterpret_cast<Function*>(function);

@@ -20,6 +20,7 @@ namespace banyan {
 // Has of each robot what it has said last.
 class SwarmElsewhere : public Swarm {
  public:
+  SwarmElsewhere& operator=(const SwarmElsewhere&) = delete;
   [[nodiscard]] std::size_t size() const noexcept override { return robots_.size(); }
   std::size_t send(std::size_t i, std::span<std::uint8_t> bytes) const noexcept override {
     std::copy(robots_[i].message.begin(), robots_[i].message.end(), bytes.begin());
@@ -52,7 +53,6 @@ class SwarmElsewhere : public Swarm {
     }
   }
   SwarmElsewhere(const SwarmElsewhere& other) : local_(other.local_->clone()), robots_(other.robots_) {}
-  SwarmElsewhere& operator=(const SwarmElsewhere&) = delete;
 
   // False for bytes that are no message of the algorithm: they change nothing.
   bool take(std::size_t i, std::span<const std::uint8_t> message) {
