@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 
 set(cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/banyan)
 set(rooms "")
-foreach(room IN ITEMS version controller rivals algorithms world measure record config)
+foreach(room IN ITEMS version controller baselines algorithms world measure record config)
   if(NOT TARGET banyan_${room})
     continue()
   endif()
@@ -17,7 +17,7 @@ foreach(room IN ITEMS version controller rivals algorithms world measure record 
   install(EXPORT banyan-${room} FILE banyan-${room}-targets.cmake NAMESPACE banyan:: DESTINATION ${cmake_dir}
           COMPONENT development)
   if(NOT room STREQUAL version)
-    # A room has one include/, rivals/ one in each folder.
+    # A room has one include/, baselines/ one in each folder.
     file(GLOB faces ${PROJECT_SOURCE_DIR}/${room}/include ${PROJECT_SOURCE_DIR}/${room}/*/include)
     foreach(face IN LISTS faces)
       install(DIRECTORY ${face}/ TYPE INCLUDE COMPONENT development FILES_MATCHING PATTERN "*.hpp")

@@ -115,7 +115,7 @@ def tables(args):
         groups.setdefault(title, {}).setdefault((row['algorithm'], row['reading'], row['sight']), []).append(row)
     for title, by_algorithm in sorted(groups.items()):
         print(f'\n{", ".join(word for word in title if word)}: ARGoS / ours\n\n| algorithm | sight | complete | median normalised time | ratio of times'
-              ' | runs with an edge ≥ C | time with a hidden edge | runs with a split |\n|---|---|---|---|---|---|---|---|')
+              ' | runs with an edge ≥ C | time with an occluded edge | runs with a split |\n|---|---|---|---|---|---|---|---|')
         for (algorithm, reading, sight), rows in sorted(by_algorithm.items()):
             ours = {(r['T'], r['r'], r['k'], r['seed']): r for r in rows if r['where'] == 'banyan'}
             for eyes in sorted({r['obstacles'] for r in rows if r['where'] == 'argos'}):

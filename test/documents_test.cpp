@@ -151,7 +151,7 @@ TEST(Documents, CommandsRun) {
 TEST(Documents, LinksAndPathsLeadSomewhere) {
   const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
   const std::regex path(
-      R"(`((?:algorithms|bench|cli|cmake|config|controller|docs|examples|hosts|measure|record|rivals|scenarios|studies|study|test|viewer|world)/[\w./-]+\.\w+)`)");
+      R"(`((?:algorithms|bench|cli|cmake|config|controller|docs|examples|hosts|measure|record|baselines|scenarios|studies|study|test|viewer|world)/[\w./-]+\.\w+)`)");
   std::size_t found = 0;
   // Of the notebook this is all: its commands and numbers are of their day.
   for (const Line& line : lines_of_documents({"docs", "notebook"})) {

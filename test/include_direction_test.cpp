@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The arrows of the house: cli -> study -> config -> record -> measure -> world -> controller,
-// and viewer -> config: a browser has no processes to start. Only algorithms -> controller, rivals knows the
+// and viewer -> config: a browser has no processes to start. Only algorithms -> controller, baselines knows the
 // algorithms; the others see them through controller/core, and who composes a program hands the list down. So does
-// rivals -> controller/core. A host is a program of its own beside the world: hosts -> controller/core; what starts one
-// is above it, cli -> hosts. hosts/argos is one that observes and records its robots as a world: hosts/argos -> config.
-// Reads the include lines of every source file and names each that points up.
+// baselines -> controller/core. A host is a program of its own beside the world: hosts -> controller/core; what starts
+// one is above it, cli -> hosts. hosts/argos is one that observes and records its robots as a world: hosts/argos ->
+// config. Reads the include lines of every source file and names each that points up.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -29,8 +29,8 @@ using Names = std::set<std::string, std::less<>>;
 // Room -> the rooms it may include besides itself.
 const std::map<std::string, Names, std::less<>> may_include = {
     {"controller", {}},
-    {"rivals", {"controller"}},
-    {"algorithms", {"controller", "rivals"}},
+    {"baselines", {"controller"}},
+    {"algorithms", {"controller", "baselines"}},
     {"world", {"controller"}},
     {"measure", {"controller", "world"}},
     {"record", {"controller", "world", "measure"}},
@@ -49,7 +49,7 @@ const std::map<std::string, Names, std::less<>> host_may_include = {
 
 // Libraries that have one home: <prefix of the header> -> the rooms, or folders of hosts/, that know them.
 const std::map<std::string, Names, std::less<>> homes = {
-    {"Eigen/", {"measure", "study", "rivals"}},
+    {"Eigen/", {"measure", "study", "baselines"}},
     {"Spectra/", {"measure"}},
     {"box2d/", {"world"}},
     {"zstd", {"record"}},
@@ -77,19 +77,19 @@ const Names on_the_robot = {"algorithm", "array",    "bit",         "cmath",    
                             "numeric",   "optional", "span",        "string_view", "tuple",
                             "utility",   "version",  "type_traits", "iterator",    "initializer_list"};
 
-// The seam's side towards hosts, which have a heap. Nothing else in controller/ includes these, and in rivals/ only
-// algorithm.cpp, which makes an Algorithm of each, and algorithm.hpp of common/.
+// The interface's side towards hosts, which have a heap. Nothing else in controller/ includes these, and in baselines/
+// only algorithm.cpp, which makes an Algorithm of each, and algorithm.hpp of common/.
 const Names for_hosts = {"swarm.hpp",        "swarm_of.hpp",  "algorithm.hpp",
                          "algorithm_of.hpp", "elsewhere.hpp", "printable.hpp"};
 const Names of_hosts = {"cstdio", "functional", "memory", "string", "vector", "new", "cstdlib", "sys/mman.h"};
 bool is_for_hosts(const fs::path& file) {
   if (file.parent_path().filename() == "core") return for_hosts.contains(file.filename().string());
-  return file.stem() == "algorithm" && std::find(file.begin(), file.end(), "rivals") != file.end();
+  return file.stem() == "algorithm" && std::find(file.begin(), file.end(), "baselines") != file.end();
 }
 
-// What has include/, src/ and test/: a room, and in rivals/ and hosts/ each of its folders.
+// What has include/, src/ and test/: a room, and in baselines/ and hosts/ each of its folders.
 fs::path part_of(const fs::path& room_folder, const fs::path& file) {
-  const bool has_parts = room_folder.filename() == "rivals" || room_folder.filename() == "hosts";
+  const bool has_parts = room_folder.filename() == "baselines" || room_folder.filename() == "hosts";
   return has_parts ? room_folder / *file.lexically_relative(room_folder).begin() : room_folder;
 }
 // Whether a file is no test, nor anything else besides the libraries.
@@ -124,7 +124,7 @@ std::vector<Include> includes(const fs::path& file) {
 }
 
 // A private header: beside the file, or in its room's src/ or test/; tests may share the helpers of
-// the tests of a room below, and rivals those in common/.
+// the tests of a room below, and baselines those in common/.
 std::optional<std::string> quoted_fault(const fs::path& room_folder, const fs::path& file, const std::string& name) {
   const fs::path part = part_of(room_folder, file);
   if (file.lexically_relative(part / "test").begin()->string() != "..") {
@@ -151,7 +151,7 @@ std::optional<std::string> fault(const fs::path& room_folder, const fs::path& fi
                                  bool product) {
   const std::string room = room_folder.filename().string();
   const std::string& name = include.name;
-  const bool on_robot = product && (room == "controller" || room == "rivals") && !is_for_hosts(file);
+  const bool on_robot = product && (room == "controller" || room == "baselines") && !is_for_hosts(file);
   if (name.starts_with("banyan/")) {
     const std::size_t slash = name.find('/', 7);
     if (slash == std::string::npos)
@@ -179,7 +179,7 @@ std::optional<std::string> fault(const fs::path& room_folder, const fs::path& fi
   for (const auto& [prefix, rooms] : homes) {
     if (name.starts_with(prefix) && !rooms.contains(room) && !rooms.contains(part)) return "belongs into another room";
   }
-  if (product && (room == "controller" || room == "rivals") && !on_the_robot.contains(name) &&
+  if (product && (room == "controller" || room == "baselines") && !on_the_robot.contains(name) &&
       (on_robot || !of_hosts.contains(name)))
     return "has no place on a robot";
   return std::nullopt;
@@ -335,32 +335,32 @@ TEST_F(WrongHouse, OnlyTheListAndTestsNameAlgorithms) {
   std::filesystem::remove(house_ / "config/src/x.cpp");
   EXPECT_EQ(faults_of("cli/src/x.cpp", "#include \"banyan/algorithms/algorithms.hpp\""), "");
 }
-TEST_F(WrongHouse, RivalsStandOnTheCoreAlone) {
-  EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include \"banyan/controller/core/guard.hpp\""), "");
-  EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include \"banyan/controller/tree/motion.hpp\""),
-            "rivals/toy/src/x.cpp: banyan/controller/tree/motion.hpp names an algorithm\n");
-  EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include <vector>"),
-            "rivals/toy/src/x.cpp: vector has no place on a robot\n");
-  EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include \"banyan/world/world.hpp\""),
-            "rivals/toy/src/x.cpp: banyan/world/world.hpp points up\n");
-  EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include \"banyan/controller/core/algorithm_of.hpp\""),
-            "rivals/toy/src/x.cpp: banyan/controller/core/algorithm_of.hpp is for hosts\n");
-  EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include \"banyan/rivals/common/algorithm.hpp\""),
-            "rivals/toy/src/x.cpp: banyan/rivals/common/algorithm.hpp is for hosts\n");
-  std::filesystem::remove(house_ / "rivals/toy/src/x.cpp");
-  EXPECT_EQ(faults_of("rivals/toy/src/algorithm.cpp",
+TEST_F(WrongHouse, BaselinesStandOnTheCoreAlone) {
+  EXPECT_EQ(faults_of("baselines/toy/src/x.cpp", "#include \"banyan/controller/core/guard.hpp\""), "");
+  EXPECT_EQ(faults_of("baselines/toy/src/x.cpp", "#include \"banyan/controller/tree/motion.hpp\""),
+            "baselines/toy/src/x.cpp: banyan/controller/tree/motion.hpp names an algorithm\n");
+  EXPECT_EQ(faults_of("baselines/toy/src/x.cpp", "#include <vector>"),
+            "baselines/toy/src/x.cpp: vector has no place on a robot\n");
+  EXPECT_EQ(faults_of("baselines/toy/src/x.cpp", "#include \"banyan/world/world.hpp\""),
+            "baselines/toy/src/x.cpp: banyan/world/world.hpp points up\n");
+  EXPECT_EQ(faults_of("baselines/toy/src/x.cpp", "#include \"banyan/controller/core/algorithm_of.hpp\""),
+            "baselines/toy/src/x.cpp: banyan/controller/core/algorithm_of.hpp is for hosts\n");
+  EXPECT_EQ(faults_of("baselines/toy/src/x.cpp", "#include \"banyan/baselines/common/algorithm.hpp\""),
+            "baselines/toy/src/x.cpp: banyan/baselines/common/algorithm.hpp is for hosts\n");
+  std::filesystem::remove(house_ / "baselines/toy/src/x.cpp");
+  EXPECT_EQ(faults_of("baselines/toy/src/algorithm.cpp",
                       "#include <vector>\n#include \"banyan/controller/core/algorithm_of.hpp\""),
             "");
-  EXPECT_EQ(faults_of("rivals/toy/toy.cpp", "#include <vector>"),
-            "rivals/toy/toy.cpp: vector has no place on a robot\n");
-  std::filesystem::remove(house_ / "rivals/toy/toy.cpp");
-  EXPECT_EQ(faults_of("rivals/common/test/net.hpp", "#include <vector>"), "");
-  EXPECT_EQ(faults_of("rivals/toy/test/x_test.cpp",
+  EXPECT_EQ(faults_of("baselines/toy/toy.cpp", "#include <vector>"),
+            "baselines/toy/toy.cpp: vector has no place on a robot\n");
+  std::filesystem::remove(house_ / "baselines/toy/toy.cpp");
+  EXPECT_EQ(faults_of("baselines/common/test/net.hpp", "#include <vector>"), "");
+  EXPECT_EQ(faults_of("baselines/toy/test/x_test.cpp",
                       "#include <vector>\n#include \"net.hpp\"\n#include \"banyan/controller/core/swarm_of.hpp\""),
             "");
-  EXPECT_EQ(faults_of("algorithms/src/x.cpp", "#include \"banyan/rivals/common/motion.hpp\""), "");
-  EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"banyan/rivals/common/motion.hpp\""),
-            "world/src/x.cpp: banyan/rivals/common/motion.hpp points up\n");
+  EXPECT_EQ(faults_of("algorithms/src/x.cpp", "#include \"banyan/baselines/common/motion.hpp\""), "");
+  EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"banyan/baselines/common/motion.hpp\""),
+            "world/src/x.cpp: banyan/baselines/common/motion.hpp points up\n");
 }
 TEST_F(WrongHouse, AHostKnowsNoWorld) {
   EXPECT_EQ(faults_of("hosts/toy/src/x.cpp", "#include <vector>\n#include \"banyan/controller/core/swarm.hpp\""), "");

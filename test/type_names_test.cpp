@@ -24,8 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view rooms[] = {"controller", "rivals", "algorithms", "world", "measure", "record",
-                                      "config",     "study",  "hosts",      "cli",   "viewer"};
+constexpr std::string_view rooms[] = {"controller", "baselines", "algorithms", "world", "measure", "record",
+                                      "config",     "study",     "hosts",      "cli",   "viewer"};
 
 // Vec2 is single on the robot and double around it. Heard is what an algorithm hears, beside its Params, State,
 // Message.
@@ -97,11 +97,11 @@ std::vector<Definition> definitions(const std::string& text, const std::string& 
   return found;
 }
 
-// The rival whose folder holds the file; "" if it is in none.
-std::string rival_of(const std::string& file) {
+// The baseline whose folder holds the file; "" if it is in none.
+std::string baseline_of(const std::string& file) {
   std::smatch m;
-  static const std::regex in_rivals(R"(^rivals/(\w+)/.*)");
-  return std::regex_match(file, m, in_rivals) && m[1] != "common" ? m[1].str() : "";
+  static const std::regex in_baselines(R"(^baselines/(\w+)/.*)");
+  return std::regex_match(file, m, in_baselines) && m[1] != "common" ? m[1].str() : "";
 }
 
 // The paper's algorithms and caravan share nothing with others but core/: their names are theirs. "" for the rest.
@@ -115,14 +115,14 @@ bool is_in_core(const std::string& file) {
   return std::regex_match(file, in_core);
 }
 bool is_of_an_algorithm(const std::string& file) {
-  return (file.starts_with("rivals/") || file.starts_with("controller/")) && !is_in_core(file);
+  return (file.starts_with("baselines/") || file.starts_with("controller/")) && !is_in_core(file);
 }
 
 bool are_one(const Definition& a, const Definition& b) {
   const auto differ = [&](std::string (*place)(const std::string&)) { return place(a.file) != place(b.file); };
-  const bool of_two_rivals = !rival_of(a.file).empty() && !rival_of(b.file).empty() && differ(rival_of);
+  const bool of_two_baselines = !baseline_of(a.file).empty() && !baseline_of(b.file).empty() && differ(baseline_of);
   const bool of_two_rooms = is_of_an_algorithm(a.file) && is_of_an_algorithm(b.file) && differ(room_of_its_own);
-  return of_two_rivals || of_two_rooms || (!a.alias.empty() && a.alias == b.alias);
+  return of_two_baselines || of_two_rooms || (!a.alias.empty() && a.alias == b.alias);
 }
 
 std::string twice(const std::map<std::string, std::string>& files) {
@@ -177,18 +177,18 @@ TEST(TypeNames, WhatIsNoSecondTypeIsNot) {
   EXPECT_NE(twice({{"cli/a.cpp", "using J = json;"}, {"cli/b.cpp", "using J = text;"}}), "");
 }
 
-TEST(TypeNames, RivalsAreComparedWithTheRoomsAlone) {
+TEST(TypeNames, BaselinesAreComparedWithTheRoomsAlone) {
   const std::string x = "struct X {};";
-  EXPECT_EQ(twice({{"rivals/one/src/a.cpp", x}, {"rivals/two/src/a.cpp", x}}), "");
-  EXPECT_NE(twice({{"rivals/one/src/a.cpp", x}, {"rivals/one/src/b.cpp", x}}), "");
+  EXPECT_EQ(twice({{"baselines/one/src/a.cpp", x}, {"baselines/two/src/a.cpp", x}}), "");
+  EXPECT_NE(twice({{"baselines/one/src/a.cpp", x}, {"baselines/one/src/b.cpp", x}}), "");
   EXPECT_EQ(twice({{"controller/src/paper/a.cpp", x}, {"controller/src/tree/a.cpp", x}}), "");
   EXPECT_EQ(twice({{"controller/src/paper/a.cpp", x}, {"controller/src/caravan/a.cpp", x}}), "");
   EXPECT_NE(twice({{"controller/src/caravan/a.cpp", x}, {"controller/src/caravan/b.cpp", x}}), "");
-  EXPECT_EQ(twice({{"controller/src/paper/a.cpp", x}, {"rivals/two/src/a.cpp", x}}), "");
+  EXPECT_EQ(twice({{"controller/src/paper/a.cpp", x}, {"baselines/two/src/a.cpp", x}}), "");
   EXPECT_NE(twice({{"controller/src/paper/a.cpp", x}, {"controller/src/core/a.cpp", x}}), "");
   EXPECT_NE(twice({{"controller/src/paper/a.cpp", x}, {"record/src/a.cpp", x}}), "");
-  EXPECT_NE(twice({{"rivals/common/src/a.cpp", x}, {"rivals/two/src/a.cpp", x}}), "");
-  EXPECT_NE(twice({{"record/src/a.cpp", x}, {"rivals/two/src/a.cpp", x}}), "");
+  EXPECT_NE(twice({{"baselines/common/src/a.cpp", x}, {"baselines/two/src/a.cpp", x}}), "");
+  EXPECT_NE(twice({{"record/src/a.cpp", x}, {"baselines/two/src/a.cpp", x}}), "");
 }
 
 TEST(TypeNames, ATextThatIsNotUnderstoodIsAFault) {

@@ -2,12 +2,12 @@
 // The one list. An algorithm is a folder of its own, and here its include and its entry.
 #include "banyan/algorithms/algorithms.hpp"
 
-#include "banyan/rivals/branches/branches.hpp"
-#include "banyan/rivals/chains/chains.hpp"
-#include "banyan/rivals/cohesion/cohesion.hpp"
-#include "banyan/rivals/fiedler/fiedler.hpp"
-#include "banyan/rivals/link_consensus/link_consensus.hpp"
-#include "banyan/rivals/mst/mst.hpp"
+#include "banyan/baselines/branches/branches.hpp"
+#include "banyan/baselines/chains/chains.hpp"
+#include "banyan/baselines/cohesion/cohesion.hpp"
+#include "banyan/baselines/fiedler/fiedler.hpp"
+#include "banyan/baselines/link_consensus/link_consensus.hpp"
+#include "banyan/baselines/mst/mst.hpp"
 
 namespace banyan {
 
@@ -18,12 +18,12 @@ const AlgorithmList& algorithms() noexcept {
           &inwards(),
           &convoy(),
           &caravan_algorithm(),
-          &rivals::link_consensus::algorithm(),
-          &rivals::mst::algorithm(),
-          &rivals::fiedler::algorithm(),
-          &rivals::cohesion::algorithm(),
-          &rivals::chains::algorithm(),
-          &rivals::branches::algorithm(),
+          &baselines::link_consensus::algorithm(),
+          &baselines::mst::algorithm(),
+          &baselines::fiedler::algorithm(),
+          &baselines::cohesion::algorithm(),
+          &baselines::chains::algorithm(),
+          &baselines::branches::algorithm(),
       },
       convoy().name());
   return all;

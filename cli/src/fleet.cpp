@@ -85,11 +85,11 @@ void choose_impairment(const FleetOptions& options, udp::Fleet::Plan& plan) {
 }
 
 udp::Arguments hub_arguments(const FleetOptions& options, const std::string& key, const std::string& out,
-                             const std::string& tape) {
+                             const std::string& journal) {
   // Option and value side by side.
   // clang-format off
   udp::Arguments arguments{own_program(), "hub", options.run.scenario, "--key", key, "--out", out, "--force",
-                           "--tape", tape, "--speed", format("%g", options.speed), "--bundle", std::to_string(options.bundle)};
+                           "--journal", journal, "--speed", format("%g", options.speed), "--bundle", std::to_string(options.bundle)};
   // clang-format on
   for (const auto& override : options.run.overrides) {
     if (override.file.empty()) arguments.insert(arguments.end(), {"--set", override.assignment});
@@ -122,9 +122,9 @@ int run_fleet(udp::Fleet::Plan plan) {
 }
 
 udp::Fleet::Plan make_plan(const FleetOptions& options, const world::Scenario& scenario, const std::string& key,
-                           const std::string& out, const std::string& tape) {
+                           const std::string& out, const std::string& journal) {
   udp::Fleet::Plan plan;
-  plan.hub = hub_arguments(options, key, out, tape);
+  plan.hub = hub_arguments(options, key, out, journal);
   for (std::size_t i = 0; i < world::robot_count(scenario); ++i)
     plan.robots.push_back(robot_arguments(options, scenario, i, key));
   plan.restart = options.restart;
@@ -147,11 +147,11 @@ int start_fleet(const FleetOptions& options) {
   try {
     PageBeside page =
         options.view ? PageBeside(outputs, configuration.output) : PageBeside();  // in the network of the browser
-    const std::string tape = outputs.directory() + "/fleet.tape";
+    const std::string journal = outputs.directory() + "/fleet.journal";
     const MemoryKey key;
-    const int code = run_fleet(make_plan(options, configuration.scenario, key.path(), outputs.directory(), tape));
+    const int code = run_fleet(make_plan(options, configuration.scenario, key.path(), outputs.directory(), journal));
     std::error_code ignored;
-    std::filesystem::remove(tape, ignored);
+    std::filesystem::remove(journal, ignored);
     outputs.abandon();  // if the hub has written nothing
     page.stay();
     return code;

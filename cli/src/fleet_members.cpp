@@ -6,9 +6,9 @@
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/hosts/udp/envelope.hpp"
 #include "banyan/hosts/udp/fleet.hpp"
+#include "banyan/hosts/udp/journal.hpp"
 #include "banyan/hosts/udp/key.hpp"
 #include "banyan/hosts/udp/socket.hpp"
-#include "banyan/hosts/udp/tape.hpp"
 #include "commands.hpp"
 #include "terminal.hpp"
 
@@ -69,7 +69,7 @@ int with_fleet_errors(const std::function<int()>& command) {
     throw CommandError(exit_usage, error.what());
   } catch (const udp::SocketError& error) {
     throw CommandError(exit_lost, error.what());
-  } catch (const udp::TapeError& error) {
+  } catch (const udp::HubJournalError& error) {
     throw CommandError(exit_lost, error.what());
   } catch (const udp::FleetError& error) { throw CommandError(exit_lost, error.what()); }
 }

@@ -13,11 +13,11 @@
 #include <thread>
 
 #include "banyan/hosts/udp/hub.hpp"
+#include "banyan/hosts/udp/journal.hpp"
 #include "banyan/hosts/udp/peers.hpp"
 #include "banyan/hosts/udp/pose_stream.hpp"
 #include "banyan/hosts/udp/remote_swarm.hpp"
 #include "banyan/hosts/udp/socket.hpp"
-#include "banyan/hosts/udp/tape.hpp"
 #include "banyan/world/faults.hpp"
 #include "commands.hpp"
 #include "fleet_members.hpp"
@@ -36,8 +36,8 @@ struct HubOptions {
   std::string listen = "0.0.0.0:4600";
   std::string key_file;
   std::string poses;          // ADDRESS:PORT at which a tracker's poses arrive; "": bodies are simulated
-  std::string tape;           // file; "": none
-  bool resume = false;        // go on where the tape ends
+  std::string journal;        // file; "": none
+  bool resume = false;        // go on where the journal ends
   double wait_s = 10.0;       // for robots, before the mission begins
   double dead_after_s = 5.0;  // a robot that is silent for so long counts as dead
   double speed = 1.0;
@@ -59,20 +59,21 @@ std::uint64_t digest_of(const std::string& text) {
 }
 
 // The configuration is the one that was given, wherever a tracker sees robots.
-std::unique_ptr<udp::Tape> open_tape(const HubOptions& options, const config::Configuration& configuration,
-                                     udp::PoseStream* tracker) {
-  if (options.tape.empty()) return nullptr;
+std::unique_ptr<udp::HubJournal> open_journal(const HubOptions& options, const config::Configuration& configuration,
+                                              udp::PoseStream* tracker) {
+  if (options.journal.empty()) return nullptr;
   const std::uint64_t digest = digest_of(config::config_json(configuration));
   if (!options.resume)
-    return std::make_unique<udp::Tape>(options.tape, digest, std::random_device{}(), tracker ? tracker->lines() : "");
-  auto tape = std::make_unique<udp::Tape>(options.tape, digest);
-  if (tape->start().empty() != (tracker == nullptr))
+    return std::make_unique<udp::HubJournal>(options.journal, digest, std::random_device{}(),
+                                             tracker ? tracker->lines() : "");
+  auto journal = std::make_unique<udp::HubJournal>(options.journal, digest);
+  if (journal->start().empty() != (tracker == nullptr))
     throw CommandError(
         exit_usage,
-        options.tape + (tracker == nullptr ? ": is the tape of a mission with a tracker; --poses is missing"
-                                           : ": is the tape of a mission without a tracker; leave --poses out"));
-  if (tracker != nullptr) tracker->restore(tape->start());
-  return tape;
+        options.journal + (tracker == nullptr ? ": is the journal of a mission with a tracker; --poses is missing"
+                                              : ": is the journal of a mission without a tracker; leave --poses out"));
+  if (tracker != nullptr) tracker->restore(journal->start());
+  return journal;
 }
 
 std::string list_of(const std::vector<std::size_t>& robots) {
@@ -213,7 +214,7 @@ int play_scenario(const HubOptions& options) {
   udp::KeyFile keys = keys_of(options);
   const std::size_t robots = world::robot_count(scenario);
   const auto tracker = open_tracker(options, robots);
-  const auto tape = open_tape(options, configuration, tracker.get());
+  const auto journal = open_journal(options, configuration, tracker.get());
   if (tracker) scenario = seen_by(*tracker, scenario);
   configuration.output.live = true;  // it takes as long as it takes, and somebody may want to watch
   const RunOutputs outputs(configuration, options.run.out, options.run.force || options.resume);
@@ -221,7 +222,7 @@ int play_scenario(const HubOptions& options) {
   try {
     const udp::HubSettings hub_options{udp::parse_address(options.listen), scenario.tick_s, options.speed,
                                        options.dead_after_s, options.bundle};
-    udp::Hub hub(hub_options, robots, keys.keys(), tape.get());
+    udp::Hub hub(hub_options, robots, keys.keys(), journal.get());
     const auto silence = static_cast<std::uint32_t>(still_after_s / scenario.tick_s);
     const AlgorithmElsewhere remote = udp::remote_algorithm(world::algorithm_of(scenario), hub, silence);
     RunOptions run = options.run;
@@ -291,7 +292,7 @@ int hub_command(const HubOptions& options) {
     }
     if (!options.stop.empty()) return stop_peers(options);
     if (options.run.scenario.empty()) throw CommandError(exit_usage, "a scenario is missing; see banyan hub --help");
-    if (options.resume && options.tape.empty()) throw CommandError(exit_usage, "--resume needs --tape");
+    if (options.resume && options.journal.empty()) throw CommandError(exit_usage, "--resume needs --journal");
     if (options.print_robots) return print_robots(options);
     ::signal(SIGPIPE, SIG_IGN);  // as in `banyan run`
     return play_scenario(options);
@@ -323,9 +324,9 @@ void add_hub(CLI::App& command, CommandAction& action) {
   add_patience(command, *options);
   command.add_option("--poses", options->poses, "take poses from a tracker here, instead of simulating bodies")
       ->type_name("ADDRESS:PORT");
-  command.add_option("--tape", options->tape, "keep here what robots say and the tracker sees, to resume from")
+  command.add_option("--journal", options->journal, "keep here what robots say and the tracker sees, to resume from")
       ->type_name("FILE");
-  command.add_flag("--resume", options->resume, "go on where the tape ends");
+  command.add_flag("--resume", options->resume, "go on where the journal ends");
   command.add_option("--impairment", options->impairment, "for the summary")->group("");  // a fleet says it
   add_results(command, options->run);
   add_pace(command, *options);

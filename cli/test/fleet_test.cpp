@@ -194,13 +194,13 @@ class FleetProgram : public StartedProcesses {
   static pid_t robot(pid_t fleet, int id) { return child_with(fleet, "banyan-robot --id " + std::to_string(id) + " "); }
   static pid_t hub(pid_t fleet) { return child_with(fleet, " hub "); }
 
-  // Started, and under way: its hub has a tape of some ticks.
+  // Started, and under way: its hub has a journal of some ticks.
   pid_t start_fleet(Arguments more, std::size_t ticks = 10) {
     more.insert(more.begin(), {"fleet", three_targets, "--speed", "5", "--out", "result", "--quiet"});
     const pid_t fleet = start(more);
-    const auto tape = home_ / "result/fleet.tape";
+    const auto journal = home_ / "result/fleet.journal";
     EXPECT_TRUE(becomes([&] {
-      return std::filesystem::exists(tape) && std::filesystem::file_size(tape) > 20 + ticks * 6 * 9;
+      return std::filesystem::exists(journal) && std::filesystem::file_size(journal) > 20 + ticks * 6 * 9;
     })) << read("stderr.txt");
     return fleet;
   }
@@ -219,7 +219,7 @@ class FleetProgram : public StartedProcesses {
     const Outcome outcome = finish(fleet);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     for (const pid_t child : children) EXPECT_FALSE(runs(child)) << child;
-    EXPECT_FALSE(exists("result/fleet.tape"));
+    EXPECT_FALSE(exists("result/fleet.journal"));
     EXPECT_TRUE(exists("result/run.mcap") && exists("result/run.csv"));
     const auto whole = nlohmann::json::parse(read("result/run.json"), nullptr, false);
     auto result = whole.value("result", nlohmann::json::object());
@@ -477,20 +477,21 @@ TEST_F(Laboratory, KeysChangeWhileTheHubGathers) {
   expect_complete(finish(mission));
 }
 
-// A hub that is killed goes on from its tape, which has what the tracker saw, too.
+// A hub that is killed goes on from its journal, which has what the tracker saw, too.
 TEST_F(Laboratory, AHubThatIsStartedAgainGoesOnWhereItWas) {
   Arguments arguments = hub();
-  for (const char* more : {"--tape", "mission.tape"}) arguments.emplace_back(more);
+  for (const char* more : {"--journal", "mission.journal"}) arguments.emplace_back(more);
   const pid_t first = start(arguments);
-  const auto tape = home_ / "mission.tape";
-  EXPECT_TRUE(becomes([&] { return std::filesystem::exists(tape) && std::filesystem::file_size(tape) > 30000; }))
+  const auto journal = home_ / "mission.journal";
+  EXPECT_TRUE(becomes([&] { return std::filesystem::exists(journal) && std::filesystem::file_size(journal) > 30000; }))
       << read("stderr.txt");
   ::kill(first, SIGKILL);
   finish(first);
-  const auto blind =
-      run({"hub", three_targets, "--key", "fleet.key", "--listen", hub_address_, "--tape", "mission.tape", "--resume"});
+  const auto blind = run({"hub", three_targets, "--key", "fleet.key", "--listen", hub_address_, "--journal",
+                          "mission.journal", "--resume"});
   EXPECT_EQ(blind.code, 2);
-  EXPECT_TRUE(has(blind.err, "mission.tape: is the tape of a mission with a tracker; --poses is missing")) << blind.err;
+  EXPECT_TRUE(has(blind.err, "mission.journal: is the journal of a mission with a tracker; --poses is missing"))
+      << blind.err;
   arguments.emplace_back("--resume");
   expect_complete(run(arguments));
   // The recording is that of the whole mission: from where robots stood in the beginning, without a gap.
@@ -672,7 +673,7 @@ TEST_F(FleetProgram, RefusesWhatCannotBe) {
   expect_refused({"fleet", BANYAN_SCENARIOS "/three-targets.toml", "--set", "swarm.robots=65535"},
                  "a fleet has at most 65534");
   expect_refused({"hub", three_targets}, "--key is missing");
-  expect_refused({"hub", three_targets, "--key", "k", "--resume"}, "--resume needs --tape");
+  expect_refused({"hub", three_targets, "--key", "k", "--resume"}, "--resume needs --journal");
   write("loose.key", "1 " + std::string(64, 'a') + "\n");
   std::filesystem::permissions(home_ / "loose.key", std::filesystem::perms{0644});
   expect_refused({"hub", three_targets, "--key", "loose.key"}, "chmod 600");

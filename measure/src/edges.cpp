@@ -14,7 +14,7 @@ constexpr Column<Edges::Row> table[] = {
     column<&Edges::Row::broken_ticks_by_distance>("broken_ticks_by_distance", "with an edge of C or longer",
                                                   "ticks with an edge too long"),
     column<&Edges::Row::broken_ticks_by_occlusion>(
-        "broken_ticks_by_occlusion", "with an edge in range but without line of sight", "ticks with a hidden edge"),
+        "broken_ticks_by_occlusion", "with an edge in range but without line of sight", "ticks with an occluded edge"),
     column<&Edges::Row::broken_ticks_by_death>("broken_ticks_by_death", "with an edge to a dead robot",
                                                "ticks with an edge to a dead robot"),
     ratio<&Edges::Row::disconnected_time_ratio>("disconnected_time_ratio", "broken_ticks / ticks",
@@ -22,7 +22,7 @@ constexpr Column<Edges::Row> table[] = {
     ratio<&Edges::Row::disconnected_time_ratio_by_distance>(
         "disconnected_time_ratio_by_distance", "the same by distance", "share of time with an edge too long"),
     ratio<&Edges::Row::disconnected_time_ratio_by_occlusion>(
-        "disconnected_time_ratio_by_occlusion", "the same by occlusion", "share of time with a hidden edge"),
+        "disconnected_time_ratio_by_occlusion", "the same by occlusion", "share of time with an occluded edge"),
     quantity<&Edges::Row::liveness_period_s>("liveness_period_s", "I: a neighbour not heard for longer counts as gone"),
     column<&Edges::Row::broken_ticks_after_silence>(
         "broken_ticks_after_silence", "with an edge broken for longer than liveness_period_s without a break"),

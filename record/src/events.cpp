@@ -80,11 +80,11 @@ struct BrokenEdge {
 };
 
 // Why robots in range of each other have no line of sight; "" if they have one.
-std::string hidden_by(const world::Scene& scene, std::int32_t i, std::int32_t j) {
+std::string occluded_by(const world::Scene& scene, std::int32_t i, std::int32_t j) {
   const auto blocker = world::blocker(scene, static_cast<std::size_t>(i), static_cast<std::size_t>(j));
   if (!blocker) return "";
   const auto index = static_cast<std::int64_t>(blocker->index);
-  return "hidden by " + (blocker->is_obstacle ? "obstacle " + std::to_string(index) : robot_name(index));
+  return "occluded by " + (blocker->is_obstacle ? "obstacle " + std::to_string(index) : robot_name(index));
 }
 
 void judge_edge(const world::Scene& scene, const Frame& frame, std::size_t i, bool old,
@@ -95,7 +95,7 @@ void judge_edge(const world::Scene& scene, const Frame& frame, std::size_t i, bo
   const double length = distance(robot.position, frame.robots[static_cast<std::size_t>(to)].position);
   BrokenEdge edge{static_cast<std::int32_t>(i), to, old, ""};
   if (!(length < scene.range_m)) edge.why = metres(length) + " apart, out of range";
-  else if (scene.line_of_sight) edge.why = hidden_by(scene, edge.robot, to);
+  else if (scene.line_of_sight) edge.why = occluded_by(scene, edge.robot, to);
   if (!edge.why.empty()) broken.push_back(std::move(edge));
 }
 
@@ -335,7 +335,8 @@ void EventWatcher::watch_edges(const Setting& setting, const Frame& frame, const
                      (count == 1 ? " tree edge is broken" : " tree edges are broken");
   if (before == 0 && tick.broken_by_distance > 0)
     text += ", " + std::to_string(tick.broken_by_distance) + " out of range";
-  if (before == 0 && tick.broken_by_occlusion > 0) text += ", " + std::to_string(tick.broken_by_occlusion) + " hidden";
+  if (before == 0 && tick.broken_by_occlusion > 0)
+    text += ", " + std::to_string(tick.broken_by_occlusion) + " occluded";
   std::vector<std::string> names;
   names.reserve(edges.size());
   for (const BrokenEdge& edge : edges) names.push_back(std::to_string(edge.robot));

@@ -387,17 +387,17 @@ TEST(Events, ABrokenEdgeIsNamedWithItsReason) {
   hidden.robots[3].position = {0.5, 0.52};
   hidden.robots[1].old_parent = 0;  // the same edge, not another one
   EXPECT_EQ(text(hidden, 0, 1),
-            "edges_broken 1: the edge from robot 1 to its parent, robot 0, is broken: hidden by robot 3");
+            "edges_broken 1: the edge from robot 1 to its parent, robot 0, is broken: occluded by robot 3");
   Frame both = hidden;
   both.robots[2].position = {9.0, 0.5};
   EXPECT_EQ(text(both, 1, 1),
-            "edges_broken 1: 2 tree edges are broken, 1 out of range, 1 hidden: of the robots 1 and 2");
+            "edges_broken 1: 2 tree edges are broken, 1 out of range, 1 occluded: of the robots 1 and 2");
   setting.obstacles = {world::Wall{{-1.0, 0.0}, {-1.0, 1.0}}, world::Wall{{0.5, 0.0}, {0.5, 1.0}}};
   Frame old = chain();
   old.robots[1].parent = -1;
   old.robots[1].old_parent = 0;
   EXPECT_EQ(text(old, 0, 2),
-            "edges_broken 1: the edge from robot 1 to its old parent, robot 0, is broken: hidden by obstacle 1");
+            "edges_broken 1: the edge from robot 1 to its old parent, robot 0, is broken: occluded by obstacle 1");
 }
 
 TEST(Events, EveryFurtherBrokenEdgeIsTold) {
@@ -516,7 +516,7 @@ TEST(Events, TheVanishedHideNobody) {
     told.next(setting, frame, tick);
     const std::string who = dead_bodies ? "robot 3" : "obstacle 0";
     EXPECT_EQ(told.events(), (std::vector<std::string>{"edges_broken 1: the edge from robot 1 to its parent, robot 0, "
-                                                       "is broken: hidden by " +
+                                                       "is broken: occluded by " +
                                                        who}));
   }
 }

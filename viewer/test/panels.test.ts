@@ -95,7 +95,7 @@ describe('why an edge broke', () => {
   const frame = frameOf({ x_m: [0, 1.5, 0.7, 5], y_m: [0, 0, 0.05, 0], parent: [-1, 0, 0, 0], old_parent: [-1, -1, -1, 1] });
   it('is said of each tick: apart, and what stands between', () => {
     const at = (other: number, deeds = new Deeds('')) => momentsOf([frame], () => setting, 0, other, deeds);
-    expect(at(1)[0]).toMatchObject({ words: 'hidden by robot 2', distanceM: 1.5, heard: 'no' });
+    expect(at(1)[0]).toMatchObject({ words: 'occluded by robot 2', distanceM: 1.5, heard: 'no' });
     expect(at(3)[0]).toMatchObject({ words: 'out of range (2 m)', heard: 'no' });
     expect(at(2)[0]).toMatchObject({ words: 'in contact', heard: 'yes' });
     expect(at(9)).toEqual([]);

@@ -13,13 +13,13 @@ constexpr double insist_s = 1.0;
 
 }  // namespace
 
-Hub::Hub(const HubSettings& options, std::size_t robots, KeyRing keys, Tape* tape)
+Hub::Hub(const HubSettings& options, std::size_t robots, KeyRing keys, HubJournal* journal)
     : options_(options),
       keys_(std::move(keys)),
-      tape_(tape),
+      journal_(journal),
       socket_(options.listen),
       clock_(options.speed),
-      mission_(tape != nullptr ? tape->mission() : static_cast<std::uint32_t>(new_boot())) {
+      mission_(journal != nullptr ? journal->mission() : static_cast<std::uint32_t>(new_boot())) {
   const std::uint64_t boot = new_boot();
   for (std::size_t i = 0; i < robots; ++i) robots_.emplace_back(SecureChannel(hub_node, static_cast<NodeId>(i), boot));
 }
@@ -158,9 +158,9 @@ void Hub::keep_time(std::uint32_t tick, const Stopped& stopped) {
   for (Robot& robot : robots_) robot.heard_tick = tick;
 }
 
-TapeTick Hub::arrivals(std::uint32_t tick) {
+HubJournalTick Hub::arrivals(std::uint32_t tick) {
   const auto patience = static_cast<std::uint32_t>(std::lround(options_.dead_after_s / options_.tick_s));
-  TapeTick entries;
+  HubJournalTick entries;
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const Robot& robot = robots_[i];
     if (!robot.arrived.empty()) entries.push_back({static_cast<std::uint16_t>(i), robot.arrived});
@@ -170,21 +170,21 @@ TapeTick Hub::arrivals(std::uint32_t tick) {
 }
 
 // What the tracker sees, in as many entries as it takes.
-void Hub::add_sight(TapeTick& entries) const {
+void Hub::add_sight(HubJournalTick& entries) const {
   constexpr std::size_t most = 60000;
   const std::string lines = tracker_->lines();
   for (std::size_t begin = 0; begin < lines.size();) {
     const std::size_t end = lines.size() - begin <= most ? lines.size() : lines.rfind('\n', begin + most) + 1;
     entries.push_back(
-        {TapeEntry::tracker,
+        {HubJournalEntry::tracker,
          {lines.begin() + static_cast<std::ptrdiff_t>(begin), lines.begin() + static_cast<std::ptrdiff_t>(end)}});
     begin = end;
   }
 }
 
 void Hub::play(std::uint32_t tick) {
-  for (const TapeEntry& entry : tape_->recorded()[tick]) {
-    if (entry.robot == TapeEntry::tracker && tracker_ != nullptr)
+  for (const HubJournalEntry& entry : journal_->recorded()[tick]) {
+    if (entry.robot == HubJournalEntry::tracker && tracker_ != nullptr)
       tracker_->restore({reinterpret_cast<const char*>(entry.status.data()), entry.status.size()});
     if (entry.robot < robots_.size() && !entry.status.empty()) robots_[entry.robot].arrived = entry.status;
   }
@@ -193,19 +193,19 @@ void Hub::play(std::uint32_t tick) {
 std::vector<std::size_t> Hub::wait_for(std::uint32_t tick, const Stopped& stopped) {
   tick_ = tick;
   muted_ = is_replaying(tick);
-  TapeTick entries;
+  HubJournalTick entries;
   if (muted_) {
-    entries = tape_->recorded()[tick];
+    entries = journal_->recorded()[tick];
     play(tick);
   } else {
     keep_time(tick, stopped);
     if (tracker_ != nullptr) look_();
     entries = arrivals(tick);
-    if (tape_ != nullptr && tracker_ != nullptr) add_sight(entries);
-    if (tape_ != nullptr) tape_->append(tick, entries);
+    if (journal_ != nullptr && tracker_ != nullptr) add_sight(entries);
+    if (journal_ != nullptr) journal_->append(tick, entries);
   }
   std::vector<std::size_t> dead;
-  for (const TapeEntry& entry : entries) {
+  for (const HubJournalEntry& entry : entries) {
     if (!entry.says_dead() || entry.robot >= robots_.size()) continue;
     robots_[entry.robot].dead = true;
     dead.push_back(entry.robot);

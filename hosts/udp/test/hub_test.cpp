@@ -197,10 +197,10 @@ TEST_F(HubAndRobots, AStopIsRepeatedUntilItIsAnswered) {
 }
 
 TEST_F(HubAndRobots, AHubPlaysItsTapeAndGoesOn) {
-  const std::string path = ::testing::TempDir() + "banyan-hub-tape-" + std::to_string(::getpid());
+  const std::string path = ::testing::TempDir() + "banyan-hub-journal-" + std::to_string(::getpid());
   {
-    Tape tape(path, 1, 2);
-    Hub hub(options(), 1, fleet_keys(), &tape);
+    HubJournal journal(path, 1, 2);
+    Hub hub(options(), 1, fleet_keys(), &journal);
     FakeRobot robot(0, hub);
     robot.say(EnvelopeKind::hello);
     ASSERT_TRUE(hub.gather(5.0, never).empty());
@@ -211,8 +211,8 @@ TEST_F(HubAndRobots, AHubPlaysItsTapeAndGoesOn) {
       robot.tell(static_cast<float>(tick));
     }
   }
-  Tape tape(path, 1);
-  Hub hub(options(), 1, fleet_keys(), &tape);
+  HubJournal journal(path, 1);
+  Hub hub(options(), 1, fleet_keys(), &journal);
   FakeRobot robot(0, hub);
   for (std::uint32_t tick = 0; tick < 5; ++tick) {
     EXPECT_TRUE(hub.is_replaying(tick));

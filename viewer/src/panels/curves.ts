@@ -23,7 +23,7 @@ export interface Curve {
 export const curves: Curve[] = [ // those shown first
   {
     title: 'Broken tree edges', unit: '', digits: 0, whole: true,
-    help: 'Edges of the tree whose ends are out of range or hidden from each other',
+    help: 'Edges of the tree whose ends are out of range or occluded',
     value: (s, k) => s.broken_by_distance[k] + s.broken_by_occlusion[k],
   },
   {

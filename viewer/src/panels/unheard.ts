@@ -32,7 +32,7 @@ export function momentsOf(
     const link = radio.link(a, b);
     const loss = deeds.lossAt(timeS);
     const [words, heard] = ((): [string, Moment['heard']] => {
-      if (link === 'blocked') return [`hidden by ${radio.blocker(a, b)}`, 'no'];
+      if (link === 'blocked') return [`occluded by ${radio.blocker(a, b)}`, 'no'];
       if (link === 'out of range') return [`out of range (${setting.range_m} m)`, 'no'];
       if (link === 'dead') return ['an end is dead', 'no'];
       if (deeds.isBlackoutAt(timeS)) return ['in contact, but blackout', 'no'];

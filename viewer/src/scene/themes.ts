@@ -21,7 +21,7 @@ export interface Theme {
   targetText: string;
   tree: string;
   oldTree: string;
-  /** Edges whose other end is out of range, hidden or dead. */
+  /** Edges whose other end is out of range, occluded or dead. */
   broken: string;
   link: string;
   blocked: string;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The seam between algorithms and hosts. A host (the simulated world, the page, a process on a robot)
+// The interface between algorithms and hosts. A host (the simulated world, the page, a process on a robot)
 // runs robots of one algorithm through this interface and knows nothing else of them; an algorithm knows
 // nothing of its host. One virtual call serves a range of robots, so that calls inside the loop are not virtual.
 #pragma once

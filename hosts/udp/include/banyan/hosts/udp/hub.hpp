@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "banyan/hosts/udp/envelope.hpp"
+#include "banyan/hosts/udp/journal.hpp"
 #include "banyan/hosts/udp/periods.hpp"
 #include "banyan/hosts/udp/pose_stream.hpp"
 #include "banyan/hosts/udp/remote_swarm.hpp"
 #include "banyan/hosts/udp/socket.hpp"
-#include "banyan/hosts/udp/tape.hpp"
 
 namespace banyan::udp {
 
@@ -39,8 +39,8 @@ struct HubCounts {
 
 class Hub final : public RemoteLink {
  public:
-  // `tape`: none, or one to write and, if it has recorded ticks, to play first; it must outlive the hub.
-  Hub(const HubSettings& options, std::size_t robots, KeyRing keys, Tape* tape);
+  // `journal`: none, or one to write and, if it has recorded ticks, to play first; it must outlive the hub.
+  Hub(const HubSettings& options, std::size_t robots, KeyRing keys, HubJournal* journal);
 
   using Stopped = std::function<bool()>;
   // Waits until every robot has said something, at most so long. Those that have not.
@@ -62,7 +62,7 @@ class Hub final : public RemoteLink {
 
   [[nodiscard]] const HubCounts& counts() const noexcept { return counts_; }
   [[nodiscard]] bool is_replaying(std::uint32_t tick) const noexcept {
-    return tape_ != nullptr && tick < tape_->recorded().size();
+    return journal_ != nullptr && tick < journal_->recorded().size();
   }
   [[nodiscard]] Address local() const noexcept { return socket_.local(); }
 
@@ -90,13 +90,13 @@ class Hub final : public RemoteLink {
   void send(Robot& robot, EnvelopeKind kind, const Bytes& payload);
   void send_heard(Robot& robot, const SensorFrame& frame, std::span<const Hearing> heard);
   void keep_time(std::uint32_t tick, const Stopped& stopped);
-  [[nodiscard]] TapeTick arrivals(std::uint32_t tick);
+  [[nodiscard]] HubJournalTick arrivals(std::uint32_t tick);
   void play(std::uint32_t tick);
-  void add_sight(TapeTick& entries) const;
+  void add_sight(HubJournalTick& entries) const;
 
   HubSettings options_;
   KeyRing keys_;
-  Tape* tape_;
+  HubJournal* journal_;
   PoseStream* tracker_ = nullptr;  // none: bodies are simulated
   std::function<void()> look_;
   Socket socket_;
@@ -105,7 +105,7 @@ class Hub final : public RemoteLink {
   std::vector<Robot> robots_;
   std::optional<double> begin_s_;  // when tick 0 began, or would have; none: not yet
   std::uint32_t tick_ = 0;
-  bool muted_ = false;  // a tape is played
+  bool muted_ = false;  // a journal is played
   HubCounts counts_;
 };
 
