@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is under the pointer, how far a run reaches, and that what is written can be read.
+import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { boundsOf } from '../src/scene/bounds';
 import { toPx, type Camera } from '../src/scene/camera';
@@ -91,6 +92,19 @@ describe('themes', () => {
       expect(Math.max(contrast(spare, theme.background), contrast(theme.outline, theme.background))).toBeGreaterThanOrEqual(3);
     });
     it(`${theme.name}: roles are those of record/palette.hpp`, () => expect(theme.roles).toEqual(['#f0e442', '#009e73', '#0072b2', '#d55e00']));
+    // What `banyan draw` and `banyan film` use, member by member: names are those of the C++ struct.
+    it(`${theme.name}: is the theme of the program's pictures`, () => {
+      const palette = readFileSync(new URL('../../record/include/banyan/record/palette.hpp', import.meta.url), 'utf8');
+      const colour = (name: string) => new RegExp(`\\bColor ${name}\\{.*"(#[0-9a-f]{6})"`).exec(palette)?.[1];
+      const members = new RegExp(`Theme ${theme.name}\\{([^}]*)\\}`).exec(palette)?.[1] ?? '';
+      const of = (name: string) => {
+        const value = new RegExp(`\\.${name} = ([^,}]+)`).exec(members)?.[1]?.trim() ?? '';
+        return value.startsWith('"') ? value.slice(1, -1) : colour(value.replace('.hex', ''));
+      };
+      const { background, text, quietText, outline, dead, target, targetText, tree, oldTree, broken, link, blocked, obstacle, spareTrail } = theme;
+      expect([background, text, quietText, outline, dead, target, targetText, tree, oldTree, broken, link, blocked, obstacle, spareTrail]).toEqual(
+        ['paper', 'ink', 'faint_ink', 'outline', 'dead', 'target', 'target_ink', 'tree', 'old_tree', 'broken', 'link', 'blocked', 'obstacle', 'spare_trail'].map(of));
+    });
   }
   it('know black from white', () => expect(contrast('#000000', '#ffffff')).toBeCloseTo(21, 9));
 });
