@@ -17,6 +17,7 @@ namespace {
 
 void add_argos(CLI::App& command, CommandAction& /*action*/) { absent(command.get_name()); }
 void add_collect(CLI::App& command, CommandAction& /*action*/) { absent(command.get_name()); }
+void add_doctor(CLI::App& command, CommandAction& /*action*/) { absent(command.get_name()); }
 void add_film(CLI::App& command, CommandAction& /*action*/) { absent(command.get_name()); }
 void add_fleet(CLI::App& command, CommandAction& /*action*/) { absent(command.get_name()); }
 void add_hub(CLI::App& command, CommandAction& /*action*/) { absent(command.get_name()); }

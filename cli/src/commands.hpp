@@ -23,6 +23,8 @@ AddCommand add_argos;
 AddCommand add_bench;
 AddCommand add_collect;
 AddCommand add_complete_keys;
+AddCommand add_demo;
+AddCommand add_doctor;
 AddCommand add_draw;
 AddCommand add_export;
 AddCommand add_film;

@@ -21,6 +21,7 @@ constexpr const char* footer =
     "130 or 143 stopped by SIGHUP, Ctrl-C or SIGTERM, with valid files of what was done so far.";
 
 constexpr Command commands[] = {
+    {"demo", "watch a mission, with nothing to type", add_demo},
     {"run", "run a scenario and write its results", add_run},
     {"validate", "report everything that is wrong with scenarios, without running them", add_validate},
     {"export", "turn a recording into a table: a row per tick and robot", add_export},
@@ -32,6 +33,7 @@ constexpr Command commands[] = {
     {"tune", tune_purpose, nullptr, tune_program},
     {"study", "run a scenario many times over and compare", add_study},
     {"collect", "merge the shards of a study into its tables and figures", add_collect},
+    {"doctor", "what is there, what is missing, and what for", add_doctor},
     {"bench", "measure the speed of the simulation on this machine", add_bench},
     {"hub", "hand each robot process what its robot can hear", add_hub},
     {"listen", "record robots that have no hub, from what they report", add_listen},

@@ -64,14 +64,6 @@ int report_bad_usage(const CLI::App& app, const CLI::ParseError& error, const st
   return exit_usage;
 }
 
-[[noreturn]] void become(std::string program, std::span<char*> arguments) {
-  std::vector<char*> words{program.data()};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  words.push_back(nullptr);
-  ::execv(program.c_str(), words.data());
-  throw CommandError(exit_lost, program + ": " + std::strerror(errno));
-}
-
 // A command has its options from the moment on at which it is read: those of all take longer than what most do.
 void add_commands(CLI::App& app, const ProgramParts& program, CommandAction& action, std::span<char*> arguments) {
   app.footer(program.footer);
@@ -116,6 +108,14 @@ int read_and_do(const ProgramParts& program, int argc, char** argv) {
 }
 
 }  // namespace
+
+void become(std::string program, std::span<char*> arguments) {
+  std::vector<char*> words{program.data()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  words.push_back(nullptr);
+  ::execv(program.c_str(), words.data());
+  throw CommandError(exit_lost, program + ": " + std::strerror(errno));
+}
 
 int run_program(const ProgramParts& program, int argc, char** argv) {
   reserve_standard_streams();

@@ -24,6 +24,9 @@ struct ProgramParts {
   AddCommand* add = nullptr;  // without commands: what it does itself
 };
 
+// Goes on as another program: its file, or /proc/self/exe. Throws CommandError if it cannot be started.
+[[noreturn]] void become(std::string program, std::span<char*> arguments);
+
 int run_program(const ProgramParts& program, int argc, char** argv);
 
 }  // namespace banyan::cli

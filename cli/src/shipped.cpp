@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shipped.hpp"
 
+#include <cstdlib>
+
 namespace banyan::cli {
 
 namespace fs = std::filesystem;
@@ -14,6 +16,13 @@ std::string shipped_scenarios() {
   std::error_code ignored;
   const fs::path beside = installed("scenarios");
   return fs::is_directory(beside, ignored) ? beside.string() : BANYAN_SCENARIOS_FOLDER;
+}
+
+std::string shipped_page() {
+  const char* given = std::getenv("BANYAN_PAGE");
+  const fs::path folder = given != nullptr && *given != '\0' ? fs::path(given) : installed("viewer");
+  std::error_code ignored;
+  return fs::is_regular_file(folder / "index.html", ignored) ? folder.string() : "";
 }
 
 std::string shipped_figures() {

@@ -42,14 +42,17 @@ namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 
 std::string page_folder(const ViewOptions& options) {
-  const char* given = std::getenv("BANYAN_PAGE");
-  const fs::path folder = !options.page.empty()                ? fs::path(options.page)
-                          : given != nullptr && *given != '\0' ? fs::path(given)
-                                                               : installed("viewer");
   std::error_code ignored;
-  if (fs::is_regular_file(folder / "index.html", ignored)) return folder;
+  if (options.page.empty()) {
+    if (std::string folder = shipped_page(); !folder.empty()) return folder;
+  } else if (fs::is_regular_file(fs::path(options.page) / "index.html", ignored)) {
+    return options.page;
+  }
+  const char* given = std::getenv("BANYAN_PAGE");
   throw CommandError(exit_lost,
-                     folder.string() +
+                     (!options.page.empty()                ? options.page
+                      : given != nullptr && *given != '\0' ? std::string(given)
+                                                           : installed("viewer").string()) +
                          ": the page is not there (no index.html). In a clone of Banyan, `./banyan view` builds it; "
                          "or build it with viewer/build and say where it is with --page DIR or BANYAN_PAGE");
 }

@@ -47,4 +47,12 @@ std::string draw_folder(const Drawer& drawer, const std::string& folder) {
          later(drawer.pythons.empty() ? "python3" : drawer.pythons.front());
 }
 
+std::string python_that_draws(const Drawer& drawer) {
+  for (const std::string& python : drawer.pythons) {
+    const ChildEnd end = run_program({python, "-B", "-c", "import matplotlib"});
+    if (end.start_error == 0 && end.ended.empty()) return python;
+  }
+  return "";
+}
+
 }  // namespace banyan::study

@@ -89,5 +89,7 @@ struct Drawer {
 // Draws all figures of a folder, and waits. Returns what went wrong, with what Python said and the command that draws
 // them later; "" if nothing did. Then pictures of earlier figures stay as they were.
 [[nodiscard]] std::string draw_folder(const Drawer& drawer, const std::string& folder);
+// The Python of these that has matplotlib; "" if none has.
+[[nodiscard]] std::string python_that_draws(const Drawer& drawer);
 
 }  // namespace banyan::study
