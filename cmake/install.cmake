@@ -52,20 +52,35 @@ endforeach()
 set(pc_requires "")
 set(pc_system_libs "")
 if(TARGET banyan_world)
-  set(pc_requires "box2d, libzstd, tomlplusplus")
+  if(BANYAN_HAVE_BOX2D)
+    list(APPEND pc_requires box2d)
+  endif()
+  if(BANYAN_HAVE_ZSTD)
+    list(APPEND pc_requires libzstd)
+  endif()
+  if(BANYAN_TOML_LIBRARY)
+    list(APPEND pc_requires tomlplusplus)
+  endif()
+  list(JOIN pc_requires ", " pc_requires)
   set(pc_system_libs "-pthread")
 endif()
 configure_file(${PROJECT_SOURCE_DIR}/cmake/banyan.pc.in ${generated}/banyan.pc @ONLY)
 install(FILES ${generated}/banyan.pc DESTINATION ${pc_dir} COMPONENT development)
 
 if(TARGET banyan_cli)
-  install(TARGETS banyan_cli banyan_robot banyan_tune RUNTIME COMPONENT program)
+  foreach(program IN ITEMS banyan_cli banyan_robot banyan_tune)
+    if(TARGET ${program})
+      install(TARGETS ${program} RUNTIME COMPONENT program)
+    endif()
+  endforeach()
   # Some studies name parameters that tuning found.
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios ${PROJECT_SOURCE_DIR}/studies ${PROJECT_SOURCE_DIR}/parameters ${PROJECT_SOURCE_DIR}/results
           DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program
           FILES_MATCHING PATTERN "*.toml")
   # The program needs it without the package of Python.
   install(FILES ${PROJECT_SOURCE_DIR}/hosts/python/banyan/figures.py DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program)
+  # By which a workspace of colcon knows what is installed in it.
+  install(FILES ${PROJECT_SOURCE_DIR}/package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program)
   # The page, if viewer/build has built it.
   if(EXISTS ${PROJECT_SOURCE_DIR}/build/viewer/page/index.html)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/viewer/page/ DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan/viewer COMPONENT program)

@@ -34,7 +34,7 @@ std::string in_path(const std::string& name) {
   while (!rest.empty()) {
     const std::string_view folder = rest.substr(0, rest.find(':'));
     rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
-    const std::string file = std::string(folder) + "/" + name;
+    std::string file = std::string(folder) + "/" + name;
     if (!folder.empty() && ::access(file.c_str(), X_OK) == 0 && !fs::is_directory(file)) return file;
   }
   return "";

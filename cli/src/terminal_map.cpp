@@ -39,7 +39,7 @@ class Canvas {
   Canvas(const record::Viewport& view, const MapStyle& style)
       : columns_(std::max(10, style.columns)),
         lines_(std::max(5, style.lines)),
-        dots_(static_cast<std::size_t>(columns_ * lines_), 0),
+        dots_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(lines_), 0),
         marks_(dots_.size()) {
     const Vec2 size = view.high - view.low;
     // Half a character stays free at each edge.
@@ -66,7 +66,7 @@ class Canvas {
       std::string row;
       std::size_t used = 0;
       for (int column = 0; column < columns_; ++column) {
-        add(static_cast<std::size_t>(line * columns_ + column), colour, row);
+        add(place(line, column), colour, row);
         if (row.back() != ' ') used = row.size();
       }
       text.append(row, 0, used).push_back('\n');
@@ -83,8 +83,10 @@ class Canvas {
   [[nodiscard]] std::optional<std::size_t> cell_of(Vec2 dot) const {
     if (!(dot.x >= 0.0 && dot.y >= 0.0 && dot.x < columns_ * dots_across && dot.y < lines_ * dots_down))
       return std::nullopt;
-    return static_cast<std::size_t>(static_cast<int>(dot.y) / dots_down * columns_ +
-                                    static_cast<int>(dot.x) / dots_across);
+    return place(static_cast<int>(dot.y) / dots_down, static_cast<int>(dot.x) / dots_across);
+  }
+  [[nodiscard]] std::size_t place(int line, int column) const {
+    return static_cast<std::size_t>(line) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
   }
   void set(Vec2 dot) {
     // Unicode numbers the dots of a braille pattern by columns, the lowest two last.

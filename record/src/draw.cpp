@@ -399,6 +399,7 @@ void Picture::radio() {
   const double width = per_robot > 20.0 ? 0.25 : per_robot > 8.0 ? 0.5 : 0.8;
   const auto draw = [&](const Stroke& stroke, const auto& pairs) {
     std::vector<std::pair<Vec2, Vec2>> list;
+    list.reserve(pairs.size());
     for (const auto& [i, j] : pairs) list.emplace_back(frame_.robots[i].position, frame_.robots[j].position);
     lines(stroke, list, lines_per_path);
   };
@@ -478,8 +479,9 @@ void Picture::labels() {
 void Picture::legend() {
   for (std::size_t k = 0; options_.legend && k < legend_.size(); ++k) {
     const LegendEntry& entry = legend_[k];
-    const Vec2 at{margin_px + legend_px.x * static_cast<double>(k % legend_columns_),
-                  legend_y_ + legend_px.y * static_cast<double>(k / legend_columns_)};
+    const std::size_t row = k / legend_columns_;
+    const Vec2 at{margin_px + legend_px.x * static_cast<double>(k - row * legend_columns_),
+                  legend_y_ + legend_px.y * static_cast<double>(row)};
     if (entry.symbol.empty()) {
       begin_path(entry.stroke);
       out_.add("M", at, "h24");
