@@ -38,9 +38,9 @@ bool is_set(const char* name) {
 }
 
 // Draws the run over itself in a terminal; elsewhere only its end.
-class Stage final : public record::Sink {
+class TerminalShow final : public record::Sink {
  public:
-  Stage() : is_terminal_(::isatty(STDOUT_FILENO) != 0) {
+  TerminalShow() : is_terminal_(::isatty(STDOUT_FILENO) != 0) {
     style_.colour = is_terminal_ && !is_set("NO_COLOR");
     winsize size{};
     if (is_terminal_ && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0) {
@@ -93,9 +93,9 @@ int in_terminal(const std::string& file) {
   if (!loaded.ok()) return exit_lost;
   catch_stop_signals();
   ::signal(SIGPIPE, SIG_IGN);
-  Stage stage;
+  TerminalShow show;
   world::Executor alone(1);
-  const record::RunEnd end = record::run_scenario(world::World(loaded.configuration.scenario), stage, alone,
+  const record::RunEnd end = record::run_scenario(world::World(loaded.configuration.scenario), show, alone,
                                                   [](const record::Simulation&) { return stop_signal() == 0; });
   if (end.interrupted) return exit_signal + stop_signal();
   const bool whole = end.run.disconnected_time_ratio == 0.0;
