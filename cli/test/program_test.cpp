@@ -706,9 +706,9 @@ class Completion : public Program {
 using Words = std::vector<std::string>;
 
 TEST_F(Completion, KnowsCommandsOptionsKeysValuesAndFiles) {
-  EXPECT_EQ(complete(" "),
-            (Words{"--help", "--version", "algorithms", "argos", "bench", "collect", "draw", "export", "film", "fleet",
-                   "hub", "keys", "listen", "robot", "run", "study", "tune", "validate", "view"}));
+  EXPECT_EQ(complete(" "), (Words{"--help", "--version", "algorithms", "argos", "bench", "collect",  "demo",
+                                  "doctor", "draw",      "export",     "film",  "fleet", "hub",      "keys",
+                                  "listen", "robot",     "run",        "study", "tune",  "validate", "view"}));
   EXPECT_EQ(complete(" ru"), Words{"run"});
   EXPECT_EQ(complete(" run --th"), Words{"--threads"});
   EXPECT_EQ(complete(" run small.toml --set radio.lo"), Words{"radio.loss="});
