@@ -93,9 +93,9 @@ class Canvas {
     constexpr std::array<std::uint8_t, 8> bits{0x01, 0x08, 0x02, 0x10, 0x04, 0x20, 0x40, 0x80};
     const auto cell = cell_of(dot);
     if (!cell) return;
-    const int x = static_cast<int>(dot.x) % dots_across;
-    const int y = static_cast<int>(dot.y) % dots_down;
-    dots_[*cell] |= bits[static_cast<std::size_t>(y * dots_across + x)];
+    const std::size_t x = static_cast<std::size_t>(dot.x) % std::size_t{dots_across};
+    const std::size_t y = static_cast<std::size_t>(dot.y) % std::size_t{dots_down};
+    dots_[*cell] |= bits[y * dots_across + x];
   }
   void add(std::size_t cell, bool colour, std::string& row) const {
     const Mark& mark = marks_[cell];
