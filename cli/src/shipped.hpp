@@ -13,6 +13,10 @@ namespace banyan::cli {
 // Banyan's own scenarios: the installed ones, in a clone those of the clone.
 [[nodiscard]] std::string shipped_scenarios();
 
+// The file itself if it is there, else the one that comes with the program and is meant by it: "three-targets",
+// "scenarios/three-targets.toml"; `kind` is the folder, scenarios or studies.
+[[nodiscard]] std::string itself_or_shipped(const std::string& file, const char* kind);
+
 // What draws figures: the installed figures.py, in a clone that of the clone.
 [[nodiscard]] std::string shipped_figures();
 
