@@ -2,6 +2,9 @@
 # Sourced by ./banyan and ./check: finds out which Debian packages are missing and installs them.
 # Everything it says goes to stderr.
 
+# The groups that are features of the program.
+banyan_features=(zstd box2d pixels fleets tuning figures mpi)
+
 # banyan_packages GROUP...: the names in those groups of packages.txt, one per line.
 banyan_packages() {
   local here line group='' name major
@@ -24,7 +27,7 @@ banyan_packages() {
 # banyan_missing GROUP...: those that are not installed.
 banyan_missing() {
   local -a wanted
-  mapfile -t wanted < <(banyan_packages "$@")
+  mapfile -t wanted < <(banyan_packages "$@" | sort -u)
   dpkg-query -W -f '${Package} ${db:Status-Status}\n' "${wanted[@]}" 2>/dev/null |
     awk -v wanted="${wanted[*]}" '
       $2 == "installed" { have[$1] = 1 }
@@ -42,12 +45,12 @@ banyan_install() {
   ((${#missing[@]})) || return 0
   command=(env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=120)
   if ((EUID != 0)); then
-    if ! command -v sudo >/dev/null; then
-      printf '%s: these packages are missing and you are not root (and there is no sudo). As root, run\n  apt-get install --no-install-recommends %s\n' \
+    # Without a terminal nobody can type a password.
+    if ! command -v sudo >/dev/null || { [[ ! -t 0 ]] && ! sudo -n true 2>/dev/null; }; then
+      printf '%s: these packages are missing, and this user cannot install them. As root, run\n  apt-get install --no-install-recommends %s\n' \
         "$program" "${missing[*]}" >&2
       return 1
     fi
-    # Without a terminal nobody can type a password: fail rather than hang.
     if [[ -t 0 ]]; then command=(sudo "${command[@]}"); else command=(sudo -n "${command[@]}"); fi
   fi
   printf '%s: installing with apt: %s\n' "$program" "${missing[*]}" >&2

@@ -8,6 +8,11 @@ if(EMSCRIPTEN)
   option(BANYAN_WASM_THREADS "Build for pages that are served isolated: with threads" OFF)
 endif()
 
+if((CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 11) OR
+   (CMAKE_CXX_COMPILER_ID MATCHES Clang AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14))
+  message(FATAL_ERROR "Banyan needs gcc 11 or clang 14; this is ${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}")
+endif()
+
 # Fused multiply-add would give other results than separate instructions (docs/determinism.md).
 set(options -ffp-contract=off -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion)
 set(link_options "")

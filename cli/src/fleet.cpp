@@ -11,6 +11,7 @@
 
 #include "banyan/hosts/udp/fleet.hpp"
 #include "banyan/hosts/udp/key.hpp"
+#include "beside.hpp"
 #include "commands.hpp"
 #include "fleet_members.hpp"
 #include "options.hpp"

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "fleet_members.hpp"
 
-#include <filesystem>
-
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/hosts/udp/envelope.hpp"
 #include "banyan/hosts/udp/fleet.hpp"
 #include "banyan/hosts/udp/journal.hpp"
 #include "banyan/hosts/udp/key.hpp"
 #include "banyan/hosts/udp/socket.hpp"
-#include "commands.hpp"
 #include "shipped.hpp"
 #include "terminal.hpp"
 
@@ -39,29 +36,6 @@ udp::RobotOptions robot_options(const world::Scenario& scenario, std::size_t i) 
   options.setup.history = 1;  // of packets that the robot itself delays
   return options;
 }
-
-std::string own_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
-
-namespace {
-
-std::string program_beside(const char* name, const char* advice) {
-  const auto program = std::filesystem::path(own_program()).parent_path() / name;
-  if (!std::filesystem::exists(program)) throw CommandError(exit_lost, program.string() + " is not there; " + advice);
-  return program.string();
-}
-
-}  // namespace
-
-std::string robot_program() {
-  return program_beside("banyan-robot", "build the target banyan_robot, or call ./banyan");
-}
-std::string ros2_program() {
-  return program_beside("banyan-ros2",
-                        "install cyclonedds-dev and cyclonedds-tools, configure again and build the target "
-                        "banyan_ros2, or call ./banyan");
-}
-
-std::string tune_program() { return program_beside("banyan-tune", "build the target banyan_tune, or call ./banyan"); }
 
 int with_fleet_errors(const std::function<int()>& command) {
   try {

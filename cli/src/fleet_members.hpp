@@ -18,9 +18,6 @@ namespace banyan::cli {
 // The options of robot i, without hub and key.
 [[nodiscard]] udp::RobotOptions robot_options(const world::Scenario& scenario, std::size_t i);
 
-// This program.
-[[nodiscard]] std::string own_program();
-
 // From here on what can go wrong with keys, sockets and processes is a CommandError.
 int with_fleet_errors(const std::function<int()>& command);
 

@@ -14,7 +14,7 @@
 #include <thread>
 #include <utility>
 
-#include "fleet_members.hpp"
+#include "beside.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {

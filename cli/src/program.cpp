@@ -64,6 +64,14 @@ int report_bad_usage(const CLI::App& app, const CLI::ParseError& error, const st
   return exit_usage;
 }
 
+// "with: box2d, zstd; without: ros2"
+std::string feature_line() {
+  std::string text;
+  if (!features.empty()) text += "with: " + std::string(features);
+  if (!missing_features.empty()) text += (text.empty() ? "" : "; ") + ("without: " + std::string(missing_features));
+  return text;
+}
+
 [[noreturn]] void become(std::string program, std::span<char*> arguments) {
   std::vector<char*> words{program.data()};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -84,9 +92,10 @@ void add_commands(CLI::App& app, const ProgramParts& program, CommandAction& act
     });
   }
   app.require_subcommand(1);
-  app.set_version_flag("--version",
-                       program.name + (" " + std::string(version)) + " (git " + std::string(git_id()) + ")",
-                       "print the version and exit");
+  app.set_version_flag(
+      "--version",
+      program.name + (" " + std::string(version)) + " (git " + std::string(git_id()) + ")\n" + feature_line(),
+      "print the version and exit");
 }
 
 int read_and_do(const ProgramParts& program, int argc, char** argv) {

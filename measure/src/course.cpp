@@ -8,7 +8,7 @@
 namespace banyan::measure {
 namespace {
 
-constexpr Column<Course::Row> table[] = {
+constexpr Column<Course::Row> course_table[] = {
     column<&Course::Row::robots>("robots", "robots at the start"),
     column<&Course::Row::ticks>("ticks", "simulated ticks"),
     quantity<&Course::Row::time_s>("time_s", "simulated time", "simulated time (s)"),
@@ -30,7 +30,7 @@ constexpr Column<Course::Row> table[] = {
 
 }  // namespace
 
-std::span<const Column<Course::Row>> Course::columns() noexcept { return table; }
+std::span<const Column<Course::Row>> Course::columns() noexcept { return course_table; }
 
 Course::Course(const world::World& start, Row& row) : rounding_s_(world::time_rounding_s(start.scenario())) {
   const world::Scenario& scenario = start.scenario();

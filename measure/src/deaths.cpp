@@ -4,7 +4,7 @@
 namespace banyan::measure {
 namespace {
 
-constexpr Column<Deaths::Row> table[] = {
+constexpr Column<Deaths::Row> deaths_table[] = {
     column<&Deaths::Row::deaths>("deaths", "robots that died"),
     column<&Deaths::Row::survivors>("survivors", "robots alive at the end"),
     quantity<&Deaths::Row::last_death_s>("last_death_s", "when the last of them died; empty if none did",
@@ -19,7 +19,7 @@ constexpr Column<Deaths::Row> table[] = {
 
 }  // namespace
 
-std::span<const Column<Deaths::Row>> Deaths::columns() noexcept { return table; }
+std::span<const Column<Deaths::Row>> Deaths::columns() noexcept { return deaths_table; }
 
 Deaths::Deaths(const world::World& start, Row& /*row*/)
     : recovery_(start.scenario().tick_s, world::drive_s(start.scenario()),

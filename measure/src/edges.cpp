@@ -9,7 +9,7 @@
 namespace banyan::measure {
 namespace {
 
-constexpr Column<Edges::Row> table[] = {
+constexpr Column<Edges::Row> edges_table[] = {
     column<&Edges::Row::broken_ticks>("broken_ticks", "ticks with a broken tree edge", "ticks with a broken edge"),
     column<&Edges::Row::broken_ticks_by_distance>("broken_ticks_by_distance", "with an edge of C or longer",
                                                   "ticks with an edge too long"),
@@ -32,7 +32,7 @@ constexpr Column<Edges::Row> table[] = {
 
 }  // namespace
 
-std::span<const Column<Edges::Row>> Edges::columns() noexcept { return table; }
+std::span<const Column<Edges::Row>> Edges::columns() noexcept { return edges_table; }
 
 Edges::Edges(const world::World& start, Row& row) { row.liveness_period_s = liveness_period_s(start); }
 

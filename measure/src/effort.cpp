@@ -6,7 +6,7 @@
 namespace banyan::measure {
 namespace {
 
-constexpr Column<Effort::Row> table[] = {
+constexpr Column<Effort::Row> effort_table[] = {
     column<&Effort::Row::decisions>("decisions", "times a living robot has changed its role, parent or served target"),
     quantity<&Effort::Row::driven_m>("driven_m", "the way of a robot, mean over the robots at the start",
                                      "metres driven per robot"),
@@ -14,7 +14,7 @@ constexpr Column<Effort::Row> table[] = {
 
 }  // namespace
 
-std::span<const Column<Effort::Row>> Effort::columns() noexcept { return table; }
+std::span<const Column<Effort::Row>> Effort::columns() noexcept { return effort_table; }
 
 Effort::Effort(const world::World& start) : position_(start.positions().begin(), start.positions().end()) {
   choice_.reserve(start.size());

@@ -4,8 +4,8 @@
 #include "banyan/measure/fiedler.hpp"
 
 #include <Spectra/SymEigsShiftSolver.h>
-#include <Eigen/Dense>
-#include <Eigen/Sparse>
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@
 namespace banyan::measure {
 namespace {
 
-constexpr Column<HeldTargets::Row> table[] = {
+constexpr Column<HeldTargets::Row> held_targets_table[] = {
     ratio<&HeldTargets::Row::held_time_ratio>(
         "held_time_ratio", "from completion on, mean share of the targets that are held; empty if never complete",
         "share of targets held once complete"),
@@ -65,7 +65,7 @@ std::string why_not_held(const world::World& world, const world::Target& target,
 
 }  // namespace
 
-std::span<const Column<HeldTargets::Row>> HeldTargets::columns() noexcept { return table; }
+std::span<const Column<HeldTargets::Row>> HeldTargets::columns() noexcept { return held_targets_table; }
 
 HeldTargets::HeldTargets(const world::World& start, Row& /*row*/)
     : tolerance_m_(world::target_tolerance_m(start.scenario())), takeovers_(start.scenario().tick_s) {}

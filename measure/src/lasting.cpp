@@ -9,7 +9,7 @@
 namespace banyan::measure {
 namespace {
 
-constexpr Column<Lasting::Row> table[] = {
+constexpr Column<Lasting::Row> lasting_table[] = {
     quantity<&Lasting::Row::least_charge>(
         "least_charge", "of any living robot at any time, as a share of a full battery; empty without batteries"),
     quantity<&Lasting::Row::mean_charge>("mean_charge", "of the living at the end; empty without batteries"),
@@ -24,7 +24,7 @@ constexpr Column<Lasting::Row> table[] = {
 
 }  // namespace
 
-std::span<const Column<Lasting::Row>> Lasting::columns() noexcept { return table; }
+std::span<const Column<Lasting::Row>> Lasting::columns() noexcept { return lasting_table; }
 
 void Lasting::observe(const Moment& now, Row& row) {
   observe(now.world);

@@ -10,7 +10,7 @@
 namespace banyan::measure {
 namespace {
 
-constexpr Column<NetworkParts::Row> table[] = {
+constexpr Column<NetworkParts::Row> network_parts_table[] = {
     column<&NetworkParts::Row::start_parts>(
         "start_parts", "into which the robots fall at the start, over links of which both ends hear each other",
         "parts of the network at the start"),
@@ -27,7 +27,7 @@ constexpr Column<NetworkParts::Row> table[] = {
 
 }  // namespace
 
-std::span<const Column<NetworkParts::Row>> NetworkParts::columns() noexcept { return table; }
+std::span<const Column<NetworkParts::Row>> NetworkParts::columns() noexcept { return network_parts_table; }
 
 NetworkParts::NetworkParts(const world::World& start, Row& row) {
   LivingGraph both_ways;

@@ -16,7 +16,7 @@ template <auto field> Cell if_asked(const Oracle::Row& row) {
   return row.oracle_robots > 0 ? cell_of<field>(row) : Cell{};
 }
 
-constexpr Column<Oracle::Row> table[] = {
+constexpr Column<Oracle::Row> oracle_table[] = {
     column<&Oracle::Row::robots_bound>(
         "robots_bound", "no fewer committed robots, a worker for each target among them, can connect the targets",
         "lower bound of the robots in the tree"),
@@ -58,7 +58,7 @@ std::vector<world::Vec2> unsent_positions(const world::World& world) {
 
 }  // namespace
 
-std::span<const Column<Oracle::Row>> Oracle::columns() noexcept { return table; }
+std::span<const Column<Oracle::Row>> Oracle::columns() noexcept { return oracle_table; }
 
 Oracle::Oracle(const world::World& start, Row& row)
     : range_m_(start.scenario().radio.range_m),

@@ -6,7 +6,7 @@
 namespace banyan::measure {
 namespace {
 
-constexpr Column<Overlaps::Row> table[] = {
+constexpr Column<Overlaps::Row> overlaps_table[] = {
     {"overlap_ticks", "in which bodies of living robots overlap; empty unless robot.body is linear", 0,
      [](const Overlaps::Row& row) -> Cell {
        return row.overlap_ticks < 0 ? Cell{} : Cell{static_cast<std::uint64_t>(row.overlap_ticks)};
@@ -16,7 +16,7 @@ constexpr Column<Overlaps::Row> table[] = {
 
 }  // namespace
 
-std::span<const Column<Overlaps::Row>> Overlaps::columns() noexcept { return table; }
+std::span<const Column<Overlaps::Row>> Overlaps::columns() noexcept { return overlaps_table; }
 
 Overlaps::Overlaps(const world::World& start)
     : reach_m_{2.0 * start.scenario().robot.radius_m},

@@ -9,7 +9,7 @@
 namespace banyan::measure {
 namespace {
 
-constexpr Column<Redundancy::Row> table[] = {
+constexpr Column<Redundancy::Row> redundancy_table[] = {
     column<&Redundancy::Row::link_redundancy>("link_redundancy", "mission.link_redundancy, k"),
     column<&Redundancy::Row::companions>("companions", "spares that stand beside a robot of the tree at the end"),
     ratio<&Redundancy::Row::redundant_time_ratio>(
@@ -41,7 +41,7 @@ std::uint32_t count_companions(const world::World& world) noexcept {
   return count;
 }
 
-std::span<const Column<Redundancy::Row>> Redundancy::columns() noexcept { return table; }
+std::span<const Column<Redundancy::Row>> Redundancy::columns() noexcept { return redundancy_table; }
 
 Redundancy::Redundancy(const world::World& start, Row& row) : Redundancy(start) { row.link_redundancy = wanted_; }
 

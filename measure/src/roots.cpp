@@ -6,7 +6,7 @@
 namespace banyan::measure {
 namespace {
 
-constexpr Column<Roots::Row> table[] = {
+constexpr Column<Roots::Row> roots_table[] = {
     column<&Roots::Row::two_roots_ticks>("two_roots_ticks", "ticks with more than one living root",
                                          "ticks with two roots"),
     quantity<&Roots::Row::longest_two_roots_s>("longest_two_roots_s", "the longest time of that without a break",
@@ -30,7 +30,7 @@ const Report* newest_root(const world::World& world) {
 
 }  // namespace
 
-std::span<const Column<Roots::Row>> Roots::columns() noexcept { return table; }
+std::span<const Column<Roots::Row>> Roots::columns() noexcept { return roots_table; }
 
 void Roots::observe(const Moment& now, Row& row) {
   streak_ = now.tick.roots > 1 ? streak_ + 1 : 0;

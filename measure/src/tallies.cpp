@@ -6,7 +6,7 @@
 namespace banyan::measure {
 namespace {
 
-constexpr Column<Tallies::Row> table[] = {
+constexpr Column<Tallies::Row> tallies_table[] = {
     column<&Tallies::Row::insertions>("insertions", "spares inserted into edges"),
     column<&Tallies::Row::handovers>("handovers", "times the root role was handed over"),
     column<&Tallies::Row::repairs>("repairs", "lost parents replaced and orphans re-attached"),
@@ -18,7 +18,7 @@ constexpr Column<Tallies::Row> table[] = {
 
 }  // namespace
 
-std::span<const Column<Tallies::Row>> Tallies::columns() noexcept { return table; }
+std::span<const Column<Tallies::Row>> Tallies::columns() noexcept { return tallies_table; }
 
 void Tallies::sum_up(const Moment& end, Row& row) {
   row = {};

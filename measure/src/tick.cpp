@@ -4,7 +4,7 @@
 namespace banyan::measure {
 namespace {
 
-constexpr Column<Tick> table[] = {
+constexpr Column<Tick> tick_table[] = {
     column<&Tick::tick>("tick", "number of the tick"),
     quantity<&Tick::time_s>("time_s", "tick times tick_s"),
     column<&Tick::alive>("alive", "living robots"),
@@ -33,6 +33,6 @@ constexpr Column<Tick> table[] = {
 
 }  // namespace
 
-std::span<const Column<Tick>> tick_columns() noexcept { return table; }
+std::span<const Column<Tick>> tick_columns() noexcept { return tick_table; }
 
 }  // namespace banyan::measure

@@ -9,7 +9,7 @@
 namespace banyan::measure {
 namespace {
 
-constexpr Column<TreeSize::Row> table[] = {
+constexpr Column<TreeSize::Row> tree_size_table[] = {
     column<&TreeSize::Row::committed>("committed", "robots in the tree at the end", "robots in the tree at the end"),
     quantity<&TreeSize::Row::mean_committed>("mean_committed", "mean over ticks", "robots in the tree, mean over time"),
     ratio<&TreeSize::Row::committed_ratio>("committed_ratio", "committed / robots_bound",
@@ -41,7 +41,7 @@ double network_length_m(const world::World& world) {
 
 }  // namespace
 
-std::span<const Column<TreeSize::Row>> TreeSize::columns() noexcept { return table; }
+std::span<const Column<TreeSize::Row>> TreeSize::columns() noexcept { return tree_size_table; }
 
 void TreeSize::observe(const Moment& now, Row& row) {
   row.committed = now.tick.committed;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Chunks of a recording made smaller: by zstd, or, where there is no zstd (the browser), not at all.
+// Chunks of a recording made smaller: by zstd, or, where there is no zstd (in the browser, or on a machine without it),
+// not at all.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,9 @@ namespace banyan::record {
 
 // The level that is used when `wanted` is asked for: itself, or 0 (stored as it is) without zstd.
 [[nodiscard]] int possible_level(int wanted) noexcept;
+
+// Whether chunks that zstd has compressed can be read.
+[[nodiscard]] bool reads_zstd() noexcept;
 
 class Compressor {
  public:

@@ -7,6 +7,7 @@
 namespace banyan::record {
 
 int possible_level(int) noexcept { return 0; }
+bool reads_zstd() noexcept { return false; }
 
 struct Compressor::Impl {};
 Compressor::Compressor() = default;

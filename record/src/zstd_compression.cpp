@@ -10,6 +10,7 @@
 namespace banyan::record {
 
 int possible_level(int wanted) noexcept { return wanted; }
+bool reads_zstd() noexcept { return true; }
 
 struct Compressor::Impl {
   ZSTD_CCtx* zstd = ZSTD_createCCtx();

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Installs BUILD somewhere (or unpacks its Debian packages), moves that, and builds and runs the
 # consumer against it: nothing of the build tree, and no absolute path, can then help.
-cmake_policy(VERSION 3.25)
+cmake_policy(VERSION 3.22)
 
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT RESULT_VARIABLE failed OUTPUT_VARIABLE output)

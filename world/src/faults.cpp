@@ -110,6 +110,15 @@ bool switches_sight_on(const Scenario& scenario) {
   });
 }
 
+// Why there is none.
+#ifdef __EMSCRIPTEN__
+constexpr const char* no_box2d = "the body model box2d is not in the browser's build; use disks or linear";
+#else
+constexpr const char* no_box2d =
+    "the body model box2d needs Box2D, which this banyan was built without; install libbox2d-dev and build again, or "
+    "use disks or linear";
+#endif
+
 void check_values(FaultList& list, const Scenario& scenario) {
   check_keys(list, "", scenario_keys(), scenario);
   if (scenario.algorithms == nullptr)
@@ -125,8 +134,7 @@ void check_values(FaultList& list, const Scenario& scenario) {
               "has " + std::to_string(scenario.battery.places.size()) + " places; at most 100 are possible");
   if (scenario.battery.start_spread >= scenario.battery.start_charge)
     list.fail("battery.start_spread", "must be below battery.start_charge, else robots would start empty");
-  if (scenario.robot.body == BodyModel::box2d && !has_box2d())
-    list.fail("robot.body", "the body model box2d is not in the browser's build; use disks or linear");
+  if (scenario.robot.body == BodyModel::box2d && !has_box2d()) list.fail("robot.body", no_box2d);
   if (!scenario.clocks.asynchronous && scenario.clocks.drift != 0.0)
     list.warn("clocks.drift", "has no effect without clocks.asynchronous");
   if (scenario.radio.sight_leak > 0.0 && !scenario.radio.line_of_sight && !switches_sight_on(scenario))

@@ -26,8 +26,9 @@ void refuse_company() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
     const char* size = std::getenv(name);
     if (size != nullptr && std::atoi(size) > 1) {
-      throw std::runtime_error(std::string(name) + " = " + size +
-                               ": this program was built without MPI, start it once");
+      throw std::runtime_error(
+          std::string(name) + " = " + size +
+          ": this banyan was built without MPI; start it once, or install libopenmpi-dev and build again");
     }
   }
 }

@@ -45,7 +45,7 @@ class Bodies {
 [[nodiscard]] std::unique_ptr<Bodies> make_disks(const Scenario& scenario, std::size_t robots);
 [[nodiscard]] std::unique_ptr<Bodies> make_box2d(const Scenario& scenario, const Poses& poses);
 [[nodiscard]] std::unique_ptr<Bodies> make_linear(const Scenario& scenario, std::size_t robots);
-// False in the browser's build: make_box2d() throws there.
+// False in a build without Box2D, such as the browser's: make_box2d() throws there.
 [[nodiscard]] bool has_box2d() noexcept;
 // The least side that box2d needs this box to have where it is, m: a thinner one would end the program.
 [[nodiscard]] double least_side_in_box2d_m(const Box& box) noexcept;
