@@ -19,7 +19,11 @@ _source = Path(__file__).resolve().parent  # in a clone, its hosts/python/banyan
 def _roots() -> list[Path]:
     """Folders that have scenarios/ and studies/: of a wheel, of a clone, of an installation."""
     prefixes = [*_prefix, Path(sys.prefix), Path("/usr/local"), Path("/usr")]
-    return [_built / "share" / "banyan", *[*_source.parents][2:3], *(prefix / "share" / "banyan" for prefix in prefixes)]
+    return [
+        _built / "share" / "banyan",
+        *[*_source.parents][2:3],
+        *(prefix / "share" / "banyan" for prefix in prefixes),
+    ]
 
 
 def find(path: str | os.PathLike[str]) -> str:

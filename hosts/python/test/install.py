@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""install.py BUILD ENVIRONMENT: a wheel of the build that is there, by the way that pyproject.toml names, installed in an
-environment that sees the system's numpy and pytest. What builds wheels comes from PyPI, once."""
+"""install.py BUILD ENVIRONMENT: a wheel of the build that is there, by the way that pyproject.toml names, installed in
+an environment that sees the system's numpy and pytest. What builds wheels comes from PyPI, once."""
 
 import shutil
 import subprocess

@@ -39,7 +39,9 @@ def test_the_package_is_the_installed_one():
 
 def test_the_program_knows_its_scenarios_and_studies(call):
     by_name = call(SCRIPT, "run", "three-targets", "--json", "--out", "a")
-    by_file = call(sys.executable, "-m", "banyan", "run", HOUSE / "scenarios/three-targets.toml", "--json", "--out", "b")
+    by_file = call(
+        sys.executable, "-m", "banyan", "run", HOUSE / "scenarios/three-targets.toml", "--json", "--out", "b"
+    )
     assert '"hash"' in by_name
     assert by_name.replace("out/a", "").split('"hash"')[1][:30] == by_file.split('"hash"')[1][:30]
     call(SCRIPT, "run", "scenarios/three-targets.toml", "--quiet")
@@ -83,7 +85,11 @@ def test_an_editable_installation_leaves_nothing_in_the_clone(call, tmp_path):
     python = tmp_path / "venv" / "bin" / "python"
     packages = next((tmp_path / "venv" / "lib").glob("python*/site-packages"))
     (packages / "tools.pth").write_text(path + "\n", encoding="utf-8")
-    settings = ("cmake.source-dir=hosts/python/ready", f"cmake.define.BANYAN_READY={build}", f"build-dir={tmp_path}/build")
+    settings = (
+        "cmake.source-dir=hosts/python/ready",
+        f"cmake.define.BANYAN_READY={build}",
+        f"build-dir={tmp_path}/build",
+    )
     pip = (python, "-m", "pip", "install", "--no-build-isolation", "--no-index", "--no-deps", "--ignore-installed")
     call(*pip, *(f"--config-settings={setting}" for setting in settings), "-e", HOUSE)
     told = call(python, "-c", "import banyan; print(banyan.__file__); print(banyan.places.program())").split()
