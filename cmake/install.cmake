@@ -79,6 +79,8 @@ if(TARGET banyan_cli)
           FILES_MATCHING PATTERN "*.toml")
   # The program needs it without the package of Python.
   install(FILES ${PROJECT_SOURCE_DIR}/hosts/python/banyan/figures.py DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program)
+  # By which a workspace of colcon knows what is installed in it.
+  install(FILES ${PROJECT_SOURCE_DIR}/package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program)
   # The page, if viewer/build has built it.
   if(EXISTS ${PROJECT_SOURCE_DIR}/build/viewer/page/index.html)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/viewer/page/ DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan/viewer COMPONENT program)

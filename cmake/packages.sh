@@ -40,7 +40,7 @@ banyan_install() {
   shift 2
   # Elsewhere than on Debian the build itself says what it lacks.
   command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || return 0
-  local -a missing command
+  local -a missing=() command
   mapfile -t missing < <(banyan_missing "$@")
   ((${#missing[@]})) || return 0
   command=(env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=120)
@@ -49,6 +49,10 @@ banyan_install() {
     if ! command -v sudo >/dev/null || { [[ ! -t 0 ]] && ! sudo -n true 2>/dev/null; }; then
       printf '%s: these packages are missing, and this user cannot install them. As root, run\n  apt-get install --no-install-recommends %s\n' \
         "$program" "${missing[*]}" >&2
+      local package
+      for package in "${missing[@]}"; do
+        sed -n "s/^$package  *# /    $package: /p" "$(dirname "${BASH_SOURCE[0]}")/packages.txt" | head -n 1 >&2
+      done
       return 1
     fi
     if [[ -t 0 ]]; then command=(sudo "${command[@]}"); else command=(sudo -n "${command[@]}"); fi

@@ -353,11 +353,11 @@ std::optional<std::string_view> Reader::Impl::unpack(std::string_view content, s
     return std::nullopt;
   }
   std::string_view records = chunk->records;
-  if (chunk->compression == "zstd" && !reads_zstd()) {
-    problem =
-        "a chunk was skipped: it needs zstd, which this banyan was built without; install libzstd-dev and build again";
-    return std::nullopt;
-  }
+  // Of such a file nothing could be read, chunk for chunk.
+  if (chunk->compression == "zstd" && !reads_zstd())
+    throw FileError(file.path(),
+                    "is compressed, and reading it needs zstd, which this banyan was built without; install "
+                    "libzstd-dev and build again");
   if (chunk->compression == "zstd") {
     if (!decompressor.decompress(chunk->records, chunk->uncompressed, unpacked)) {
       problem = "a damaged chunk was skipped";

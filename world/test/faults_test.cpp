@@ -11,6 +11,7 @@
 #include <random>
 
 #include "banyan/controller/core/algorithm.hpp"
+#include "banyan/world/bodies.hpp"
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/schema.hpp"
 #include "plain_scenario.hpp"
@@ -468,6 +469,7 @@ TEST(Faults, EachIsFoundOnceWhereItIs) {
     Scenario scenario = plain_scenario();
     c.change(scenario);
     const std::vector<Fault> found = faults(scenario);
+    if (scenario.robot.body == BodyModel::box2d && !has_box2d()) continue;
     int hits = 0;
     for (const Fault& f : found)
       hits += f.key == c.key && f.text.find(c.words) != std::string::npos && f.warning == c.warning;
@@ -484,6 +486,19 @@ bool is_known(std::string key) {
   const auto sections = scenario_sections();
   return has(scenario_keys()) || has(obstacle_keys()) || has(event_keys()) || key.starts_with("mission.parameters.") ||
          std::any_of(sections.begin(), sections.end(), [&](const Section& s) { return !key.empty() && s.path == key; });
+}
+
+TEST(Faults, ABodyThatWasNotBuiltIsAskedFor) {
+  Scenario scenario = plain_scenario();
+  scenario.robot.body = BodyModel::box2d;
+  const std::vector<Fault> found = faults(scenario);
+  if (has_box2d()) {
+    EXPECT_TRUE(found.empty()) << shown(found);
+  } else {
+    ASSERT_EQ(found.size(), 1U) << shown(found);
+    EXPECT_EQ(found[0].key, "robot.body");
+    EXPECT_NE(found[0].text.find("install libbox2d-dev and build again"), std::string::npos) << found[0].text;
+  }
 }
 
 TEST(Faults, NameKeysAsUsersWriteThem) {

@@ -2,6 +2,7 @@
 // The loop of a tick: what is lost, late, noisy or crowded out on the way from robot to robot, and
 // the world as a value.
 #include "banyan/world/world.hpp"
+#include "banyan/world/bodies.hpp"
 
 #include <gtest/gtest.h>
 
@@ -202,6 +203,7 @@ TEST(World, RangeAndBearingNoiseHaveTheirSigma) {
 
 TEST(World, ACopyGoesOnAsTheOriginal) {
   for (const BodyModel body : {BodyModel::disks, BodyModel::linear, BodyModel::box2d}) {
+    if (body == BodyModel::box2d && !has_box2d()) continue;
     Scenario s = hostile("inwards", 20, 4);
     s.robot.body = body;
     s.radio.latency_ticks = 3;
