@@ -7,12 +7,13 @@
 #include "banyan/hosts/udp/journal.hpp"
 #include "banyan/hosts/udp/key.hpp"
 #include "banyan/hosts/udp/socket.hpp"
+#include "shipped.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
 
 config::Configuration load_fleet(const std::string& scenario, const std::vector<config::Override>& overrides) {
-  auto loaded = config::load_configuration(scenario, algorithms(), overrides);
+  auto loaded = config::load_configuration(itself_or_shipped(scenario, "scenarios"), algorithms(), overrides);
   print_problems(loaded.problems);
   if (!loaded.ok()) throw CommandError(exit_usage, "nothing was started");
   if (loaded.configuration.scenario.clocks.asynchronous)

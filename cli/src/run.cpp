@@ -17,6 +17,7 @@
 #include "link.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "shipped.hpp"
 #include "summary.hpp"
 #include "terminal.hpp"
 
@@ -85,7 +86,9 @@ class Complaints {
 };
 
 Loaded load_experiment(const RunOptions& options) {
-  if (!is_link(options.scenario)) return load_configuration(options.scenario, algorithms(), options.overrides);
+  if (!is_link(options.scenario)) {
+    return load_configuration(itself_or_shipped(options.scenario, "scenarios"), algorithms(), options.overrides);
+  }
   LoadedLink link = load_link(options.scenario, options.overrides);
   if (link.loaded.ok() && link.runs > 1)
     complain(format(

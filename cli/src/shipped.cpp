@@ -25,6 +25,15 @@ std::string shipped_page() {
   return fs::is_regular_file(folder / "index.html", ignored) ? folder.string() : "";
 }
 
+std::string itself_or_shipped(const std::string& file, const char* kind) {
+  std::error_code ignored;
+  if (file.empty() || file == "-" || fs::path(file).is_absolute() || fs::exists(file, ignored)) return file;
+  const fs::path folder = fs::path(shipped_scenarios()).parent_path();
+  for (const fs::path& there : {folder / file, folder / kind / file, folder / kind / (file + ".toml")})
+    if (fs::is_regular_file(there, ignored)) return there.string();
+  return file;
+}
+
 std::string shipped_figures() {
   std::error_code ignored;
   const fs::path beside = installed("figures.py");

@@ -79,7 +79,7 @@ struct Prepared {
 
 // The study and its plan, or exit_usage after printing every problem.
 bool prepare(const StudyOptions& options, Prepared& prepared) {
-  auto loaded = load_study(options.file, options.overrides);
+  auto loaded = load_study(itself_or_shipped(options.file, "studies"), options.overrides);
   if (!loaded.ok()) {
     print_problems(loaded.problems);
     return false;

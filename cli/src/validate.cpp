@@ -6,6 +6,7 @@
 #include "banyan/controller/core/printable.hpp"
 #include "commands.hpp"
 #include "options.hpp"
+#include "shipped.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
@@ -56,7 +57,7 @@ int validate_command(const ValidateOptions& options) {
   std::vector<Problem> problems;
   std::string text;
   for (const auto& file : options.files) {
-    const auto loaded = load_configuration(file, algorithms(), options.overrides);
+    const auto loaded = load_configuration(itself_or_shipped(file, "scenarios"), algorithms(), options.overrides);
     all_ok = all_ok && loaded.ok();
     problems.insert(problems.end(), loaded.problems.begin(), loaded.problems.end());
     if (options.json) report.push_back(json_of(file, loaded));

@@ -122,7 +122,7 @@ json scenario_start(const ViewOptions& options, std::string text, const Configur
 std::optional<json> checked_start(const ViewOptions& options) {
   std::string text;
   try {
-    text = read_text_file(options.file);
+    text = read_text_file(itself_or_shipped(options.file, "scenarios"));
   } catch (const DocumentError& error) {
     print_problems({error.problem});
     return std::nullopt;

@@ -16,7 +16,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from . import _core
+try:
+    from . import _core
+except ImportError as error:
+    from .interpreters import another
+
+    raise another(error, __path__) from error
 from ._core import FileError, Frame, ScenarioError
 from .arrays import ActionError, Actions, Observations, Role, drive
 from .controllers import Action, Controller, Observation, Policy, Robot, Swarm

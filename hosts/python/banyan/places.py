@@ -8,7 +8,10 @@ import shutil
 import sys
 from pathlib import Path
 
+from . import _core
+
 _here = Path(__file__).parent  # of the package, installed or in a build
+_built = Path(_core.__file__).parent  # the same, but in an editable installation
 _prefix = [*_here.parents][3:4]  # of PREFIX/lib/python3/dist-packages/banyan
 _source = Path(__file__).resolve().parent  # in a clone, its hosts/python/banyan
 
@@ -16,7 +19,11 @@ _source = Path(__file__).resolve().parent  # in a clone, its hosts/python/banyan
 def _roots() -> list[Path]:
     """Folders that have scenarios/ and studies/: of a wheel, of a clone, of an installation."""
     prefixes = [*_prefix, Path(sys.prefix), Path("/usr/local"), Path("/usr")]
-    return [_here / "share", *[*_source.parents][2:3], *(prefix / "share" / "banyan" for prefix in prefixes)]
+    return [
+        _built / "share" / "banyan",
+        *[*_source.parents][2:3],
+        *(prefix / "share" / "banyan" for prefix in prefixes),
+    ]
 
 
 def find(path: str | os.PathLike[str]) -> str:
@@ -32,7 +39,7 @@ def find(path: str | os.PathLike[str]) -> str:
 def program() -> str:
     """The `banyan` program: BANYAN_PROGRAM, that of the package, of the build, on PATH."""
     named = os.environ.get("BANYAN_PROGRAM")
-    folders = [_here / "share", _here.parents[1], *_prefix]
+    folders = [_built, _built.parents[1], *_prefix]
     candidates = [named] if named else [*(folder / "bin" / "banyan" for folder in folders), shutil.which("banyan")]
     for candidate in candidates:
         if candidate and os.access(candidate, os.X_OK) and os.path.isfile(candidate):

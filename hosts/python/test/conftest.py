@@ -32,6 +32,13 @@ def command():
 
 
 @pytest.fixture
+def pixels(command):
+    """For tests that make films: nothing without the library that draws them."""
+    if "pixels" in command("--version").partition("without:")[2]:
+        pytest.skip("this banyan was built without pixels")
+
+
+@pytest.fixture
 def small():
     """18 robots, three targets 3 m away, no line of sight needed."""
     return banyan.Scenario("scenarios/three-targets.toml")

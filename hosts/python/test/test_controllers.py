@@ -127,10 +127,8 @@ def test_robots_do_what_was_decided():
     world.step()
     before = world.positions.copy(), world.headings.copy()
     world.step(10)
-    turned = np.arctan2(
-        *np.array([np.cross(before[1][i], world.headings[i]) for i in range(5)]).reshape(1, -1),
-        np.einsum("ij,ij->i", before[1], world.headings),
-    )
+    x, y = before[1].T
+    turned = np.arctan2(x * world.headings[:, 1] - y * world.headings[:, 0], (before[1] * world.headings).sum(axis=1))
     assert np.allclose(turned, 0.4, atol=1e-3)
     chord = 2 * 0.05 / 0.4 * np.sin(0.2)
     assert np.allclose(np.linalg.norm(world.positions - before[0], axis=1), chord, atol=1e-3)

@@ -229,6 +229,7 @@ def test_a_recording_as_arrays(tmp_path):
         recording.postions
 
 
+@pytest.mark.usefixtures("pixels")
 def test_films(tmp_path):
     world = banyan.World("scenarios/three-targets.toml")
     world.step(20)
