@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view rooms[] = {"controller", "baselines", "algorithms", "world", "measure", "record",
-                                      "config",     "study",     "hosts",      "cli",   "viewer"};
+                                      "config",     "study",     "hosts",      "cli",   "viewer",  "test/soak"};
 
 // Vec2 is single on the robot and double around it. Heard is what an algorithm hears, beside its Params, State,
 // Message.

@@ -8,7 +8,6 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <thread>
 
 #include "banyan/algorithms/algorithms.hpp"
@@ -45,7 +44,7 @@ class TerminalShow final : public record::Sink {
     winsize size{};
     if (is_terminal_ && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0) {
       style_.columns = std::clamp<int>(size.ws_col, 20, 100);
-      style_.lines = std::clamp<int>(size.ws_row - 3, 8, 40);
+      style_.lines = std::clamp<int>(size.ws_row - 4, 8, 40);
     }
   }
 
@@ -69,9 +68,9 @@ class TerminalShow final : public record::Sink {
     record::capture(world, frame_);
     const auto in_tree = std::count_if(frame_.robots.begin(), frame_.robots.end(),
                                        [](const record::RobotFrame& r) { return r.alive && r.role != Role::spare; });
-    std::string text = shown_ ? format("\x1b[%dA\r\x1b[J", style_.lines + 1) : "";
+    std::string text = shown_ ? format("\x1b[%dA\r\x1b[J", style_.lines + 2) : "";
     text += terminal_map(frame_, view_, style_);
-    text += format("%5.1f s   %td of %zu robots in the tree   R root  W worker  o connector  . spare  + target\n",
+    text += format("%5.1f s   %td of %zu robots in the tree\nR root  W worker  o connector  . spare  + target\n",
                    world.time_s(), in_tree, frame_.robots.size());
     print(text);
     shown_ = is_terminal_;
@@ -101,8 +100,8 @@ int in_terminal(const std::string& file) {
   const bool whole = end.run.disconnected_time_ratio == 0.0;
   print((end.run.complete ? format("All targets are held after %.1f s", end.run.completion_time_s)
                           : format("Not all targets are held after %.1f s", end.run.time_s)) +
-        (whole ? ", and the network was in one piece all the time.\n" : ".\n") + "Next:  banyan run " +
-        std::filesystem::proximate(file).string() + "   (numbers and a recording)\n" +
+        (whole ? ", and the network was in one piece all the time.\n" : ".\n") +
+        "Next:  banyan run three-targets   (numbers and a recording)\n"
         "       banyan view   (missions in the browser, to interfere with)\n");
   return exit_done;
 }

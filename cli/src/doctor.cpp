@@ -63,7 +63,7 @@ std::vector<Finding> look() {
   return {
       {"this folder", ::access(".", W_OK) == 0 ? here.string() : "", "banyan run leaves its results in out/",
        "it cannot be written to; say --out FOLDER, or go elsewhere"},
-      {"scenarios", existing(shipped_scenarios()), "missions to begin with", "install Banyan anew, or work in a clone"},
+      {"scenarios", existing(shipped_scenarios()), "missions to begin with", "reinstall Banyan, or work in a clone"},
       {"web viewer", shipped_page(), "banyan view, banyan demo in the browser, --view",
        "in a clone ./banyan view builds it; or say where it is by BANYAN_PAGE"},
       {"browser opener", in_path("xdg-open"), "opens the web viewer; without it open the address by hand",
@@ -85,8 +85,23 @@ std::vector<Finding> look() {
   };
 }
 
+// What this program was built without is of no use, whatever the machine has.
+void leave_out_missing_features(std::vector<Finding>& findings) {
+  const std::string missing = ", " + std::string(missing_features) + ",";
+  for (const auto& [feature, name] :
+       {std::pair{"pixels", "librsvg"}, {"pixels", "ffmpeg"}, {"fleets", "ip"}, {"mpi", "mpirun"}}) {
+    if (missing.find(std::string(", ") + feature + ",") == std::string::npos) continue;
+    for (Finding& f : findings) {
+      if (f.name != name) continue;
+      f.place.clear();
+      f.remedy = "this banyan was built without " + std::string(feature) + " (banyan --version)";
+    }
+  }
+}
+
 int doctor_command(bool as_json) {
-  const auto findings = look();
+  auto findings = look();
+  leave_out_missing_features(findings);
   if (as_json) {
     auto list = nlohmann::ordered_json::array();
     for (const Finding& f : findings)
@@ -109,7 +124,7 @@ int doctor_command(bool as_json) {
   text += missing == 0 ? "\nEverything is there.\n"
                        : (missing == 1 ? "\n1 thing is missing, and"
                                        : "\n" + std::to_string(missing) + " things are missing, and") +
-                             " only what stands beside it needs it.\n";
+                             " only what is listed beside needs it.\n";
   print_text(text);
   return exit_done;
 }

@@ -33,7 +33,7 @@ constexpr Command commands[] = {
     {"tune", tune_purpose, nullptr, tune_program},
     {"study", "run a scenario many times over and compare", add_study},
     {"collect", "merge the shards of a study into its tables and figures", add_collect},
-    {"doctor", "what is there, what is missing, and what for", add_doctor},
+    {"doctor", "check what is installed, what is missing, and what for", add_doctor},
     {"bench", "measure the speed of the simulation on this machine", add_bench},
     {"hub", "hand each robot process what its robot can hear", add_hub},
     {"listen", "record robots that have no hub, from what they report", add_listen},

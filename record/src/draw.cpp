@@ -230,7 +230,7 @@ class Picture {
     for (const RobotFrame& robot : frame_.robots) {
       if (!which(robot)) continue;
       const Vec2 at = screen(robot.position);
-      out_.add("<use href=\"#", symbol, "\" x=\"", at.x, "\" y=\"", at.y, "\"/>\n");
+      out_.add("<use href=\"#", symbol, look_, "\" x=\"", at.x, "\" y=\"", at.y, "\"/>\n");
     }
   }
   void robots(Role role) {
@@ -261,6 +261,7 @@ class Picture {
   double scale_ = 1.0;  // px / m
   double width_ = 0.0, legend_y_ = 0.0;
   std::size_t legend_columns_ = 1;
+  std::string look_;  // in the ids of symbols: several pictures may stand in one web page
   Svg out_;
 };
 
@@ -318,6 +319,7 @@ void Picture::lay_out() {
 // Besides its colour each role has a mark of its own, for grey prints: the root a ring, a worker a white dot, a dead
 // robot a cross.
 void Picture::symbols() {
+  look_ = "-" + in_decimals(100.0 * robot_px(Role::worker), 0) + (options_.dark ? "-dark" : "");
   out_.add("<defs>\n");
   const auto cross = [this](double arm, const Stroke& stroke) {
     begin_path(stroke);
@@ -328,13 +330,13 @@ void Picture::symbols() {
     const std::string width = " stroke-width=\"" + in_decimals(std::min(1.0, 0.18 * radius), 2) + "\"";
     const std::string ring = " stroke=\"" + std::string(color_of(role).hex) + "\" stroke-width=\"" +
                              in_decimals(std::max(1.2, 0.25 * radius), 2) + "\"";
-    out_.add("<g id=\"", name_of(role), "\">");
+    out_.add("<g id=\"", name_of(role), look_, "\">");
     if (role == Role::root) circle({}, 1.6 * radius, "none", ring);
     circle({}, radius, color_of(role).hex, " stroke=\"" + std::string(theme_.outline) + "\"" + width);
     if (role == Role::worker) circle({}, 0.38 * radius, "#ffffff");
     out_.add("</g>\n");
   }
-  out_.add("<g id=\"dead\">");
+  out_.add("<g id=\"dead", look_, "\">");
   circle({}, robot_px(Role::connector), theme_.dead);
   cross(0.6 * robot_px(Role::connector), {"#ffffff", 1.2});
   out_.add("</g>\n</defs>\n");
@@ -490,7 +492,7 @@ void Picture::legend() {
       target(at + Vec2{12.0, 0.0}, 7.0);
     } else {
       const double radius = robot_px(entry.symbol == "spare" ? Role::spare : Role::worker);
-      out_.add("<use href=\"#", entry.symbol, "\" transform=\"translate(", at + Vec2{12.0, 0.0}, ") scale(",
+      out_.add("<use href=\"#", entry.symbol, look_, "\" transform=\"translate(", at + Vec2{12.0, 0.0}, ") scale(",
                legend_robot_px / radius, ")\"/>\n");
     }
     text(at + Vec2{30.0, 4.5}, 13.0, theme_.ink, entry.words);

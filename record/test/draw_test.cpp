@@ -54,8 +54,8 @@ TEST(Draw, ShowsEveryRobotTargetAndTheProvenance) {
     for (const Role role : {Role::root, Role::worker, Role::connector, Role::spare}) {
       const auto robots = static_cast<std::size_t>(std::count_if(
           frame.robots.begin(), frame.robots.end(), [&](const RobotFrame& r) { return r.alive && r.role == role; }));
-      EXPECT_EQ(count(svg, "<use href=\"#" + std::string(name_of(role)) + "\""), robots) << name_of(role);
-      EXPECT_EQ(count(svg, "<g id=\"" + std::string(name_of(role)) + "\">"), 1U);
+      EXPECT_EQ(count(svg, "<use href=\"#" + std::string(name_of(role)) + "-"), robots) << name_of(role);
+      EXPECT_EQ(count(svg, "<g id=\"" + std::string(name_of(role)) + "-"), 1U);
       EXPECT_NE(svg.find(color_of(role).hex), std::string::npos);
     }
     EXPECT_EQ(count(svg, ">T0<") + count(svg, ">T1<"), frame.targets.size());

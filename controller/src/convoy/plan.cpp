@@ -238,7 +238,7 @@ void retry(ConvoyRobot& robot) noexcept {
 
 // ---- Every robot ----
 
-// Whether there are so many robots that branches may fold (redundancy/folding.hpp): for each path more than the
+// Whether there are so many robots that branches may fold (convoy/folding.hpp): for each path more than the
 // shortest tree takes, since edges are not all equally long. What is measured varies, so there is a band between.
 void count_for_folding(ConvoyRobot& robot) noexcept {
   constexpr int look_again_ticks = 16;  // between two looks

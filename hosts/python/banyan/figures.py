@@ -50,6 +50,9 @@ try:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch, Rectangle
     from matplotlib.textpath import text_to_path
+
+    if matplotlib.__version_info__ < (3, 6):
+        raise ImportError(f"{matplotlib.__version__} is too old, 3.6 or later is needed")
 except ImportError as _error:
     if __name__ != "__main__":
         raise

@@ -17,8 +17,7 @@ import pytest
 
 import banyan
 
-pytest.importorskip("matplotlib")
-from banyan import figures  # noqa: E402
+from banyan import figures
 
 SCRIPT = Path(figures.__file__)
 STUDY = {

@@ -49,7 +49,8 @@ std::string draw_folder(const Drawer& drawer, const std::string& folder) {
 
 std::string python_that_draws(const Drawer& drawer) {
   for (const std::string& python : drawer.pythons) {
-    const ChildEnd end = run_program({python, "-B", "-c", "import matplotlib"});
+    const ChildEnd end =
+        run_program({python, "-B", "-c", "import matplotlib, sys; sys.exit(matplotlib.__version_info__ < (3, 6))"});
     if (end.start_error == 0 && end.ended.empty()) return python;
   }
   return "";

@@ -223,6 +223,9 @@ class Illustrator {
   // Each run by the run of the same seed and world of the series ratio_to. None where that one missed or is 0.
   void fill_ratios(BoxFigure& figure, std::size_t m, const MetricColumn& column, bool late) const {
     const std::size_t axis = axis_index(*axes_, plan_.series);
+    const Values complete = results_.values("complete");
+    const bool over_bound = is_over_bound(plan_.metrics[m].column);
+    const auto is_unbound = [&](std::size_t row) { return over_bound && complete[row] == 0.0; };
     const auto identity = [&](std::size_t row) {
       auto values = results_.planned(row).values;
       values[axis] = 0;
@@ -231,7 +234,7 @@ class Illustrator {
     std::map<std::pair<std::vector<std::size_t>, std::uint64_t>, double> reference;
     for (std::size_t row = 0; row < results_.rows(); ++row) {
       if (results_.planned(row).part != part_ || results_.label(row, plan_.series) != plan_.ratio_to) continue;
-      if (column.missed[row] == 0 && std::isfinite(column.value[row]) && column.value[row] != 0.0)
+      if (column.missed[row] == 0 && !is_unbound(row) && std::isfinite(column.value[row]) && column.value[row] != 0.0)
         reference.emplace(identity(row), column.value[row]);
     }
     for (const std::size_t row : rows_) {
@@ -240,6 +243,8 @@ class Illustrator {
       if (partner == reference.end()) continue;
       if (column.missed[row] != 0) {
         if (late) ++box_of(figure, m, row).missed;
+      } else if (is_unbound(row)) {
+        ++box_of(figure, m, row).missed;
       } else if (std::isfinite(column.value[row])) {
         box_of(figure, m, row).values.push_back(column.value[row] / partner->second);
       }

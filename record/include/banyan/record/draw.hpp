@@ -20,7 +20,7 @@ class Recording;
 struct Viewport {
   Vec2 low, high;
 };
-// Everything that a picture of this would show, at least 2 m wide and high.
+// Everything that a picture of this would show, at least as wide and high as the radio reaches.
 [[nodiscard]] Viewport view_of(const Setting& setting, const Frame& frame);
 // What holds both.
 [[nodiscard]] Viewport joined(const Viewport& a, const Viewport& b) noexcept;
