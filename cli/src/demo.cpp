@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdlib>
+#include <memory>
 #include <thread>
 
 #include "banyan/algorithms/algorithms.hpp"
@@ -30,11 +30,6 @@ constexpr double frame_s = 0.4;                       // simulated, from picture
 struct DemoOptions {
   bool terminal = false;
 };
-
-bool is_set(const char* name) {
-  const char* value = std::getenv(name);
-  return value != nullptr && *value != '\0';
-}
 
 // Draws the run over itself in a terminal; elsewhere only its end.
 class TerminalShow final : public record::Sink {
@@ -108,8 +103,7 @@ int in_terminal(const std::string& file) {
 
 int demo_command(const DemoOptions& options) {
   const std::string file = shipped_scenarios() + "/" + scene;
-  const bool has_desktop = is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
-  if (options.terminal || !has_desktop || shipped_page().empty()) return in_terminal(file);
+  if (options.terminal || !has_desktop() || shipped_page().empty()) return in_terminal(file);
   std::array<std::string, 4> words{"view", file, "--set", change};
   std::array<char*, 4> arguments{};
   std::transform(words.begin(), words.end(), arguments.begin(), [](std::string& word) { return word.data(); });

@@ -10,6 +10,7 @@
 
 #include "banyan/study/figure.hpp"
 #include "banyan/version.hpp"
+#include "beside.hpp"
 #include "commands.hpp"
 #include "options.hpp"
 #include "shipped.hpp"
@@ -45,10 +46,7 @@ std::string existing(const std::string& file) {
   return !file.empty() && fs::exists(file, ignored) ? file : "";
 }
 
-std::string beside(const char* program) {
-  std::error_code ignored;
-  return existing((fs::read_symlink("/proc/self/exe", ignored).parent_path() / program).string());
-}
+std::string beside(const char* program) { return existing((fs::path(own_program()).parent_path() / program).string()); }
 
 std::string library(const char* name) {
   void* const opened = ::dlopen(name, RTLD_LAZY);

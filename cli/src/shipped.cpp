@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 
+#include "terminal.hpp"
+
 namespace banyan::cli {
 
 namespace fs = std::filesystem;
@@ -19,8 +21,7 @@ std::string shipped_scenarios() {
 }
 
 std::string shipped_page() {
-  const char* given = std::getenv("BANYAN_PAGE");
-  const fs::path folder = given != nullptr && *given != '\0' ? fs::path(given) : installed("viewer");
+  const fs::path folder = is_set("BANYAN_PAGE") ? fs::path(std::getenv("BANYAN_PAGE")) : installed("viewer");
   std::error_code ignored;
   return fs::is_regular_file(folder / "index.html", ignored) ? folder.string() : "";
 }

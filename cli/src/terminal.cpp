@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include "banyan/controller/core/printable.hpp"
@@ -63,6 +64,13 @@ const char* stop_signal_name() noexcept {
     default: return "SIGTERM";
   }
 }
+
+bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
+}
+
+bool has_desktop() { return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"); }
 
 void reserve_standard_streams() noexcept {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {

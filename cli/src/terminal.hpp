@@ -33,6 +33,10 @@ void catch_stop_signals();
 [[nodiscard]] int stop_signal() noexcept;
 [[nodiscard]] const char* stop_signal_name() noexcept;
 
+// Whether a variable of the environment is there, and not empty.
+[[nodiscard]] bool is_set(const char* variable);
+[[nodiscard]] bool has_desktop();
+
 // Occupies standard input, output and error where they are closed: otherwise the next file opened would get their
 // number, and messages to the user would end up in a recording. Writing there still fails.
 void reserve_standard_streams() noexcept;

@@ -48,11 +48,10 @@ std::string page_folder(const ViewOptions& options) {
   } else if (fs::is_regular_file(fs::path(options.page) / "index.html", ignored)) {
     return options.page;
   }
-  const char* given = std::getenv("BANYAN_PAGE");
   throw CommandError(exit_lost,
-                     (!options.page.empty()                ? options.page
-                      : given != nullptr && *given != '\0' ? std::string(given)
-                                                           : installed("viewer").string()) +
+                     (!options.page.empty()   ? options.page
+                      : is_set("BANYAN_PAGE") ? std::string(std::getenv("BANYAN_PAGE"))
+                                              : installed("viewer").string()) +
                          ": the page is not there (no index.html). In a clone of Banyan, `./banyan view` builds it; "
                          "or build it with viewer/build and say where it is with --page DIR or BANYAN_PAGE");
 }
@@ -144,11 +143,7 @@ bool wait_for(const std::string& recording) {
 }
 
 void open_browser(const std::string& address) {
-  const auto is_set = [](const char* name) {
-    const char* value = std::getenv(name);
-    return value != nullptr && *value != '\0';
-  };
-  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) return;
+  if (!has_desktop()) return;
   // Not waited for, and its output is dropped: some browsers stay in the foreground and print messages.
   posix_spawn_file_actions_t files;
   ::posix_spawn_file_actions_init(&files);

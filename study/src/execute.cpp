@@ -66,6 +66,7 @@ class Execution {
     workers_.wait();  // an exception of deliver() ends here
     journal_.sync();
     standing_.stopped = standing_.done < standing_.wanted;
+    if (standing_.wanted > 0 && !stopping_) watch(standing_);  // short runs may all be over before the first call
     return standing_;
   }
 

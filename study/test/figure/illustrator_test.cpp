@@ -294,6 +294,29 @@ TEST_F(Illustrations, NoBoundIsUndercutByRunsThatNeverCompleted) {
   }
 }
 
+// Nor is it one in a ratio, of it or by it.
+TEST_F(Illustrations, RatiosLeaveOutBoundsOfRunsThatNeverCompleted) {
+  prepare(
+      "[[figures]]\nmetric = \"committed_ratio\"\ny_scale = \"ratio\"\nratio_to = \"inwards\"\nseries = "
+      "\"algorithm\"\n");
+  for (std::size_t i = 0; i < plan_.runs.size(); ++i)
+    finish(plan_.runs[i], [&](auto& run) {
+      run.complete = i % 5 > 0;
+      run.committed_ratio = run.complete ? 2.0 : 0.5;
+    });
+  std::size_t ratios = 0, missed = 0;
+  const BoxFigure drawn = figure();
+  for (const auto& group : drawn.panels[0].boxes) {
+    for (const BoxRuns& box : group) {
+      for (const double value : box.values) EXPECT_EQ(value, 1.0) << "of two that completed";
+      ratios += box.values.size();
+      missed += box.missed;
+    }
+  }
+  EXPECT_GT(ratios, 0U);
+  EXPECT_GT(missed, 0U);
+}
+
 TEST_F(Illustrations, BooleansAreShares) {
   prepare("[[figures]]\nmetric = \"complete\"\nseries = \"algorithm\"\n[statistics]\nconfidence = 0.9\n");
   const BoxFigure drawn = figure();

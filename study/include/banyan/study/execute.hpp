@@ -22,7 +22,8 @@ struct Standing {
   double share = 1.0;    // of the expected work that is done, in [0, 1]
   bool stopped = false;  // before all was done
 };
-// Called on the caller's thread about ten times a second; false stops: what runs is finished first.
+// Called on the caller's thread about ten times a second, and once all runs are done; false stops: what runs is
+// finished first.
 using Watch = std::function<bool(const Standing&)>;
 
 // Does the runs with the indices `todo` of the plan, the longest first, and adds each to the journal.
