@@ -223,6 +223,7 @@ int play_scenario(const HubOptions& options) {
     const udp::HubSettings hub_options{udp::parse_address(options.listen), scenario.tick_s, options.speed,
                                        options.dead_after_s, options.bundle};
     udp::Hub hub(hub_options, robots, keys.keys(), journal.get());
+    hub.tell_refusals([](const std::string& text) { complain(text); });
     const auto silence = static_cast<std::uint32_t>(still_after_s / scenario.tick_s);
     const AlgorithmElsewhere remote = udp::remote_algorithm(world::algorithm_of(scenario), hub, silence);
     RunOptions run = options.run;
@@ -247,7 +248,7 @@ int stop_peers(const HubOptions& options) {
   const udp::Socket socket(udp::Address{});
   const std::array<int, 1> descriptor{socket.descriptor()};
   const udp::Clock clock;
-  udp::Stopper stopper(udp::new_boot());
+  udp::Stopper stopper(udp::new_session());
   for (double call_s = 0.0; clock.now_s() < insist_s && stop_signal() == 0; call_s += call_every_s) {
     for (const udp::Address& address : addresses) socket.send(stopper.call(keys), address);
     while (clock.wait(descriptor, call_s + call_every_s)) {
@@ -256,7 +257,7 @@ int stop_peers(const HubOptions& options) {
       udp::Drop reason{};
       while (const auto datagram = socket.receive(room, from))
         if (const auto envelope = udp::authenticate(*datagram, keys, reason))
-          if (const udp::Bytes stop = stopper.take(*envelope, keys); !stop.empty()) socket.send(stop, from);
+          for (const udp::Bytes& reply : stopper.take(*envelope, keys)) socket.send(reply, from);
     }
   }
   std::vector<std::size_t> stopped, silent;

@@ -121,6 +121,7 @@ int record_mission(const ListenOptions& options) {
   const udp::ListenerOptions ends{udp::parse_address(options.listen), scenario.tick_s, options.speed,
                                   options.dead_after_s};
   udp::Listener listener(ends, world::robot_count(scenario), udp::KeyFile(options.key_file).keys());
+  listener.tell_refusals([](const std::string& text) { complain(text); });
   gather(listener, world::mission_targets(scenario).size(), options.wait_s);
   if (stop_signal() != 0) return exit_signal + stop_signal();
   const auto workers = workers_of(listener.chart());

@@ -19,9 +19,10 @@ Hub::Hub(const HubSettings& options, std::size_t robots, KeyRing keys, HubJourna
       journal_(journal),
       socket_(options.listen),
       clock_(options.speed),
-      mission_(journal != nullptr ? journal->mission() : static_cast<std::uint32_t>(new_boot())) {
-  const std::uint64_t boot = new_boot();
-  for (std::size_t i = 0; i < robots; ++i) robots_.emplace_back(SecureChannel(hub_node, static_cast<NodeId>(i), boot));
+      mission_(journal != nullptr ? journal->mission() : static_cast<std::uint32_t>(new_session())) {
+  const std::uint64_t session = new_session();
+  for (std::size_t i = 0; i < robots; ++i)
+    robots_.emplace_back(SecureChannel(hub_node, static_cast<NodeId>(i), session));
 }
 
 // ---- What arrives ----
@@ -32,25 +33,33 @@ void Hub::listen() {
   while (const auto datagram = socket_.receive(room, from)) {
     Drop reason{};
     if (const auto envelope = authenticate(*datagram, keys_, reason)) take(*envelope, from);
-    else ++counts_.dropped[static_cast<std::size_t>(reason)];
+    else refuse(reason, from, std::nullopt);
   }
 }
 
+void Hub::refuse(Drop reason, const Address& from, std::optional<NodeId> sender) {
+  ++counts_.dropped[static_cast<std::size_t>(reason)];
+  refusals_.refuse(reason, from, sender);
+}
+
 void Hub::take(const Envelope& envelope, const Address& from) {
-  const auto refuse = [&](Drop reason) { ++counts_.dropped[static_cast<std::size_t>(reason)]; };
-  if (envelope.sender >= robots_.size()) return refuse(Drop::misaddressed);
+  if (envelope.sender >= robots_.size()) return refuse(Drop::misaddressed, from, envelope.sender);
   Robot& robot = robots_[envelope.sender];
-  if (const auto reason = robot.channel.admit(envelope)) return refuse(*reason);
+  const SecureChannel::Taken taken = robot.channel.take(envelope, clock_.now_s(), keys_);
+  if (!taken.reply.empty()) socket_.send(taken.reply, from);
+  if (taken.is_contested) refusals_.rival(envelope.sender, from);
+  if (taken.drop) return refuse(*taken.drop, from, envelope.sender);
+  if (!taken.counts && !taken.is_met) return;
   robot.address = from;
   robot.heard_tick = tick_;
   ++counts_.received;
   if (envelope.kind == EnvelopeKind::stopped) robot.answered_stop = true;
   if (envelope.kind != EnvelopeKind::status) return;
   const auto status = decode_status(envelope.payload);
-  if (!status) return refuse(Drop::malformed);
-  const bool is_later = envelope.boot != robot.boot || envelope.counter > robot.counter;
+  if (!status) return refuse(Drop::malformed, from, envelope.sender);
+  const bool is_later = envelope.session != robot.session || envelope.counter > robot.counter;
   if (!is_later) return;  // overtaken
-  robot.boot = envelope.boot;
+  robot.session = envelope.session;
   robot.counter = envelope.counter;
   robot.arrived.assign(envelope.payload.begin(), envelope.payload.end());
   robot.dropped = status->dropped;

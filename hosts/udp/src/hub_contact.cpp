@@ -5,35 +5,42 @@ namespace banyan::udp {
 namespace {
 
 constexpr double hello_every_s = 0.2;
+constexpr int patience_s = 5;
 
 class HubContact final : public Contact {
  public:
   explicit HubContact(const ContactEnds& ends)
-      : ends_(ends), hub_(parse_address(ends.options.hub)), channel_(ends.options.id, hub_node, new_boot()) {}
+      : ends_(ends), hub_(parse_address(ends.options.hub)), channel_(ends.options.id, hub_node, new_session()) {}
 
-  bool take(const Envelope& envelope, const Address& /*from*/, double now_s) override {
-    if (channel_.admit(envelope)) return false;
+  std::optional<Drop> take(const Envelope& envelope, const Address& from, double now_s) override {
+    const SecureChannel::Taken taken = channel_.take(envelope, now_s, ends_.keys);
+    if (!taken.reply.empty()) ends_.socket.send(taken.reply, from);
+    if (!taken.counts) return taken.drop;
+    greeted_ = 0;
     const auto at = ends_.driver.pose_at(now_s - ends_.options.delay_s);
     switch (envelope.kind) {
       case EnvelopeKind::frame:
-        if (const auto frame = decode_frame(envelope.payload)) return ends_.robot.take(*frame, now_s, at), true;
-        return false;
+        if (const auto frame = decode_frame(envelope.payload)) return ends_.robot.take(*frame, now_s, at), std::nullopt;
+        return Drop::malformed;
       case EnvelopeKind::heard:
-        if (const auto heard = decode_heard(envelope.payload)) return ends_.robot.take(*heard, at), true;
-        return false;
+        if (const auto heard = decode_heard(envelope.payload)) return ends_.robot.take(*heard, at), std::nullopt;
+        return Drop::malformed;
       case EnvelopeKind::stop:
         stopped_ = true;
         say(EnvelopeKind::stopped, {});
-        return true;
-      default: return false;
+        return std::nullopt;
+      default: return Drop::malformed;
     }
   }
   void guide(double /*now_s*/) override {}
   void tell(const Status& status) override { say(EnvelopeKind::status, encode(status)); }
   void greet(double now_s) override {
     if (now_s < next_hello_s_) return;
+    if (greeted_++ == patience_s / hello_every_s)
+      ends_.refusals.once("the hub at " + to_string(hub_) + " has not answered for " + std::to_string(patience_s) +
+                          " s");
     next_hello_s_ = now_s + hello_every_s;
-    say(EnvelopeKind::hello, {});
+    ends_.socket.send(channel_.ask(now_s, ends_.keys), hub_);
   }
 
  private:
@@ -45,6 +52,7 @@ class HubContact final : public Contact {
   Address hub_;
   SecureChannel channel_;
   double next_hello_s_ = 0.0;
+  int greeted_ = 0;  // since it was heard last
 };
 
 }  // namespace

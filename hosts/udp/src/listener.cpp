@@ -10,7 +10,7 @@ Listener::Listener(const ListenerOptions& options, std::size_t robots, KeyRing k
       keys_(std::move(keys)),
       socket_(options.listen),
       clock_(options.speed),
-      peers_(hub_node, new_boot()),
+      peers_(hub_node, new_session()),
       chart_(robots),
       robots_(robots) {}
 
@@ -20,7 +20,9 @@ void Listener::listen() {
   while (const auto datagram = socket_.receive(room, from)) {
     Drop reason{};
     const auto envelope = authenticate(*datagram, keys_, reason);
-    if (!envelope || !hear(*envelope, from)) ++dropped_;
+    if (envelope && hear(*envelope, from)) continue;
+    ++dropped_;
+    if (!envelope) refusals_.refuse(reason, from, std::nullopt);
   }
 }
 
@@ -28,9 +30,14 @@ void Listener::listen() {
 bool Listener::hear(const Envelope& envelope, const Address& from) {
   const Peers::Taken taken = peers_.take(envelope, clock_.now_s(), keys_);
   if (!taken.reply.empty()) socket_.send(taken.reply, from);
+  if (taken.is_contested) refusals_.rival(envelope.sender, from);
+  if (taken.drop) refusals_.refuse(*taken.drop, from, envelope.sender);
   if (taken.what != Peers::Taken::What::account) return !taken.drop;
   const auto account = decode_account(envelope.payload);
-  if (!account || envelope.sender >= robots_.size()) return false;
+  if (!account || envelope.sender >= robots_.size()) {
+    refusals_.refuse(account ? Drop::misaddressed : Drop::malformed, from, envelope.sender);
+    return false;
+  }
   Robot& robot = robots_[envelope.sender];
   robot.last = account->status;
   robot.is_new = true;

@@ -16,16 +16,17 @@ constexpr double measured_lately_s = 0.3;  // older ones, and their senders, may
 class PeerContact final : public Contact {
  public:
   explicit PeerContact(const ContactEnds& ends)
-      : ends_(ends), addresses_(parse_addresses(ends.options.peers)), peers_(ends.options.id, new_boot()) {
+      : ends_(ends), addresses_(parse_addresses(ends.options.peers)), peers_(ends.options.id, new_session()) {
     if (!ends.options.tell.empty()) listener_ = parse_address(ends.options.tell);
   }
 
-  bool take(const Envelope& envelope, const Address& from, double now_s) override {
+  std::optional<Drop> take(const Envelope& envelope, const Address& from, double now_s) override {
     const Peers::Taken taken = peers_.take(envelope, now_s, ends_.keys);
     if (!taken.reply.empty()) ends_.socket.send(taken.reply, from);
     if (taken.what == Peers::Taken::What::stop) stopped_ = true;
+    if (taken.is_contested) ends_.refusals.rival(envelope.sender, from);
     if (taken.what == Peers::Taken::What::message) return hear(envelope, now_s);
-    return !taken.drop;
+    return taken.drop;
   }
 
   // The frame that a hub would send, of what the base says; none while the base is silent.
@@ -53,18 +54,18 @@ class PeerContact final : public Contact {
   void greet(double /*now_s*/) override {}
 
  private:
-  bool hear(const Envelope& envelope, double now_s) {
-    if (envelope.payload.size() > largest_wire) return false;
+  std::optional<Drop> hear(const Envelope& envelope, double now_s) {
+    if (envelope.payload.size() > largest_wire) return Drop::malformed;
     others_.insert(envelope.sender);
     const auto measured = ends_.driver.neighbour(envelope.sender);
     const bool is_near = measured && now_s - measured->s <= measured_lately_s &&
                          norm(measured->position) <= ends_.options.setup.platform.communication_range_m;
-    if (!is_near) return true;  // it is there, and not a neighbour
+    if (!is_near) return std::nullopt;  // it is there, and not a neighbour
     HeardBundle heard;
     heard.tick = ++heard_;
     heard.packets.push_back({envelope.sender, measured->position, {envelope.payload.begin(), envelope.payload.end()}});
     ends_.robot.take(heard, ends_.driver.pose_at(measured->s));
-    return true;
+    return std::nullopt;
   }
 
   // As of now: what was measured a moment ago is moved on by the wheels.

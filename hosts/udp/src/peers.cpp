@@ -2,81 +2,77 @@
 #include "banyan/hosts/udp/peers.hpp"
 
 namespace banyan::udp {
-namespace {
-
-constexpr double ask_every_s = 0.2;
-
-}  // namespace
-
-Peers::Peer& Peers::peer(NodeId node) {
-  return peers_.try_emplace(node, Peer{SecureChannel(self_, node, boot_), {}, 0, 0.0}).first->second;
-}
 
 Bytes Peers::speak(ByteView message, const KeyRing& keys) {
-  return seal({EnvelopeKind::spoken, self_, everybody, boot_, 0, ++spoken_, message}, keys.signing());
+  return seal({EnvelopeKind::spoken, self_, everybody, session_, 0, ++spoken_, message}, keys.signing());
 }
 
 Bytes Peers::tell(ByteView account, const KeyRing& keys) {
-  return seal({EnvelopeKind::account, self_, hub_node, boot_, 0, ++spoken_, account}, keys.signing());
-}
-
-Peers::Taken Peers::take_spoken(Peer& from, const Envelope& envelope, double now_s, const KeyRing& keys) {
-  Taken taken;
-  if (envelope.boot == from.running) {
-    taken.drop = from.spoken.admit(envelope.boot, envelope.counter);
-    if (!taken.drop) taken.what = Taken::What::message;
-  } else if (envelope.boot < from.running) {
-    taken.drop = Drop::stale;
-  } else if (now_s >= from.ask_again_s) {
-    from.ask_again_s = now_s + ask_every_s;
-    taken.reply = from.channel.seal(EnvelopeKind::hello, {}, keys);
-  }
-  return taken;
+  return seal({EnvelopeKind::account, self_, hub_node, session_, 0, ++spoken_, account}, keys.signing());
 }
 
 Peers::Taken Peers::take(const Envelope& envelope, double now_s, const KeyRing& keys) {
-  if (envelope.sender == self_) return {};  // a broadcast comes back
-  Peer& from = peer(envelope.sender);
-  if (envelope.kind == EnvelopeKind::spoken) {
-    if (envelope.receiver != everybody || envelope.sender == hub_node) return {.drop = Drop::misaddressed};
-    return take_spoken(from, envelope, now_s, keys);
+  if (envelope.sender == self_) {  // a broadcast that comes back, or somebody of the same id
+    if (envelope.session == session_) return {};
+    return {.is_contested = true, .drop = Drop::in_use};  // who is believed is up to the others
   }
-  if (envelope.kind == EnvelopeKind::account) {
-    if (self_ != hub_node || envelope.receiver != hub_node) return {.drop = Drop::misaddressed};
-    Taken told = take_spoken(from, envelope, now_s, keys);
-    if (told.what == Taken::What::message) told.what = Taken::What::account;
-    return told;
+  const bool is_from_hub = envelope.sender == hub_node;
+  switch (envelope.kind) {
+    case EnvelopeKind::hello:
+    case EnvelopeKind::answer: break;
+    case EnvelopeKind::spoken:
+      if (is_from_hub || envelope.receiver != everybody) return {.drop = Drop::misaddressed};
+      break;
+    case EnvelopeKind::account:
+      if (self_ != hub_node) return {.drop = Drop::misaddressed};
+      break;
+    case EnvelopeKind::stop:
+      if (is_from_hub) break;
+      [[fallthrough]];
+    default: return {.drop = Drop::malformed};
   }
-  Envelope direct = envelope;
-  const bool calls_all =
-      envelope.kind == EnvelopeKind::hello && envelope.sender == hub_node && envelope.receiver == everybody;
-  if (calls_all) direct.receiver = self_;
-  Taken taken;
-  taken.drop = from.channel.admit(direct);
-  if (taken.drop) return taken;
-  if (envelope.kind == EnvelopeKind::hello) {
-    taken.reply = from.channel.seal(EnvelopeKind::answer, {}, keys);
-  } else if (envelope.kind == EnvelopeKind::answer) {
-    from.running = envelope.boot;
-  } else if (envelope.kind == EnvelopeKind::stop && envelope.sender == hub_node) {
+  SecureChannel& channel = peers_.try_emplace(envelope.sender, self_, envelope.sender, session_).first->second;
+  SecureChannel::Taken of = channel.take(envelope, now_s, keys);
+  Taken taken{.is_contested = of.is_contested, .drop = of.drop, .reply = std::move(of.reply)};
+  if (!of.counts) return taken;
+  if (envelope.kind == EnvelopeKind::spoken) taken.what = Taken::What::message;
+  if (envelope.kind == EnvelopeKind::account) taken.what = Taken::What::account;
+  if (envelope.kind == EnvelopeKind::stop) {
     taken.what = Taken::What::stop;
-    taken.reply = from.channel.seal(EnvelopeKind::stopped, {}, keys);
-  } else {
-    taken.drop = Drop::malformed;
+    taken.reply = channel.seal(EnvelopeKind::stopped, {}, keys);
   }
   return taken;
 }
 
+// Its session is its question.
 Bytes Stopper::call(const KeyRing& keys) {
-  return seal({EnvelopeKind::hello, hub_node, everybody, boot_, 0, ++counter_, {}}, keys.signing());
+  Bytes question;
+  DatagramWriter(question).put(session_);
+  return seal({EnvelopeKind::hello, hub_node, everybody, session_, 0, ++counter_, question}, keys.signing());
 }
 
-Bytes Stopper::take(const Envelope& envelope, const KeyRing& keys) {
-  if (envelope.receiver != hub_node || envelope.echo != boot_) return {};
+std::vector<Bytes> Stopper::take(const Envelope& envelope, const KeyRing& keys) {
+  if (envelope.receiver != hub_node || envelope.echo != session_) return {};
   if (envelope.kind == EnvelopeKind::stopped) robots_[envelope.sender] = true;
   if (envelope.kind != EnvelopeKind::answer) return {};
+  DatagramReader in(envelope.payload);
+  if (in.take<std::uint64_t>() != session_) return {};
+  const auto asked = in.take<std::uint64_t>();
   robots_.try_emplace(envelope.sender, false);
-  return seal({EnvelopeKind::stop, hub_node, envelope.sender, boot_, envelope.boot, ++counter_, {}}, keys.signing());
+  std::vector<Bytes> replies;
+  const auto reply = [&](EnvelopeKind kind, ByteView payload) {
+    replies.push_back(
+        seal({kind, hub_node, envelope.sender, session_, envelope.session, ++counter_, payload}, keys.signing()));
+  };
+  if (asked != 0) {
+    Bytes answer;
+    DatagramWriter out(answer);
+    out.put(asked);
+    out.put(std::uint64_t{0});
+    reply(EnvelopeKind::answer, answer);
+  }
+  reply(EnvelopeKind::stop, {});
+  return replies;
 }
 
 }  // namespace banyan::udp

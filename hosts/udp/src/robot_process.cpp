@@ -50,9 +50,11 @@ class Process {
         driver_(options.base.empty() ? std::unique_ptr<Driver>(std::make_unique<SimulatedWheels>())
                                      : open_line_base(options.base)),
         robot_(algorithm, options.setup, options.id, options.stop_after_s),
-        contact_(make_contact({options_, socket_, *driver_, robot_, keys_.keys()})),
+        contact_(make_contact({options_, socket_, *driver_, robot_, keys_.keys(), refusals_})),
         clock_(options.speed),
-        next_step_s_(clock_.now_s()) {}
+        next_step_s_(clock_.now_s()) {
+    refusals_.tell([this](const std::string& text) { say(text); });
+  }
   ~Process() { driver_->drive({}); }
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
@@ -76,8 +78,11 @@ class Process {
   }
 
   void refresh_keys(bool anyway = false) {
-    if (const std::string fault = keys_.refresh(anyway); !fault.empty())
-      std::fprintf(stderr, "banyan-robot %d: %s\n", options_.id, printable(fault).c_str());
+    if (const std::string fault = keys_.refresh(anyway); !fault.empty()) say(fault);
+  }
+
+  void say(const std::string& text) const {
+    std::fprintf(stderr, "banyan-robot %d: %s\n", options_.id, printable(text).c_str());
   }
 
   void hear() {
@@ -87,7 +92,11 @@ class Process {
       const double now_s = clock_.now_s();
       Drop reason{};
       const auto envelope = authenticate(*datagram, keys_.keys(), reason);
-      if (!envelope || !contact_->take(*envelope, from, now_s)) ++dropped_;
+      const std::optional<Drop> drop = envelope ? contact_->take(*envelope, from, now_s) : reason;
+      if (drop) {
+        ++dropped_;
+        refusals_.refuse(*drop, from, envelope ? std::optional(envelope->sender) : std::nullopt);
+      }
       if (!contact_->is_stopped() || stopped_s_ >= 0.0) continue;
       driver_->drive({});
       stopped_s_ = now_s;
@@ -116,6 +125,7 @@ class Process {
   Socket socket_;
   std::unique_ptr<Driver> driver_;
   UdpRobot robot_;
+  Refusals refusals_;
   std::unique_ptr<Contact> contact_;
   Clock clock_;
   double next_step_s_;

@@ -20,7 +20,11 @@ const Address anywhere = parse_address("127.0.0.1:0");
 const auto never = [] { return false; };
 
 struct FakeRobot {
-  FakeRobot(NodeId id, const Hub& hub, std::uint64_t boot = 1000) : channel(id, hub_node, boot), to(hub.local()) {}
+  FakeRobot(NodeId id, const Hub& hub, std::uint64_t session = 1000)
+      : channel(id, hub_node, session), to(hub.local()) {}
+  // Two calls, between which the hub must have answered.
+  void greet() { socket.send(channel.ask(0.0, keys), to); }
+  void answer() { EXPECT_TRUE(hear().empty()); }
   Bytes say(EnvelopeKind kind, const Bytes& payload = {}) {
     Bytes datagram = channel.seal(kind, payload, keys);
     socket.send(datagram, to);
@@ -42,8 +46,10 @@ struct FakeRobot {
       EXPECT_LE(datagram->size(), largest_datagram);
       Drop reason{};
       const auto envelope = authenticate(*datagram, keys, reason);
-      if (envelope && !channel.admit(*envelope))
-        heard.emplace_back(envelope->kind, Bytes(envelope->payload.begin(), envelope->payload.end()));
+      if (!envelope) continue;
+      const auto taken = channel.take(*envelope, 0.0, keys);
+      if (!taken.reply.empty()) socket.send(taken.reply, to);
+      if (taken.counts) heard.emplace_back(envelope->kind, Bytes(envelope->payload.begin(), envelope->payload.end()));
     }
     return heard;
   }
@@ -63,14 +69,18 @@ class HubAndRobots : public ::testing::Test {
   }
   // Both have been greeted and have answered; the next tick is 1.
   void greet() {
-    a_.say(EnvelopeKind::hello);
-    b_.say(EnvelopeKind::hello);
-    ASSERT_TRUE(hub_.gather(5.0, never).empty());
+    join(hub_, {&a_, &b_});
     ASSERT_TRUE(hub_.wait_for(0, never).empty());
     hub_.deliver(0, {}, {});
     hub_.deliver(1, {}, {});
     ASSERT_EQ(a_.hear().size(), 1U);
     ASSERT_EQ(b_.hear().size(), 1U);
+  }
+  static void join(Hub& hub, std::vector<FakeRobot*> robots) {
+    for (FakeRobot* robot : robots) robot->greet();
+    EXPECT_EQ(hub.gather(0.05, never).size(), robots.size());
+    for (FakeRobot* robot : robots) robot->answer();
+    ASSERT_TRUE(hub.gather(5.0, never).empty());
   }
   [[nodiscard]] std::optional<float> velocity(std::size_t i) {
     const auto status = hub_.take(i);
@@ -81,9 +91,13 @@ class HubAndRobots : public ::testing::Test {
 };
 
 TEST_F(HubAndRobots, WaitsForAllAndNamesThoseThatAreMissing) {
-  a_.say(EnvelopeKind::hello);
-  EXPECT_EQ(hub_.gather(0.2, never), (std::vector<std::size_t>{1}));
-  b_.say(EnvelopeKind::hello);
+  a_.greet();
+  EXPECT_EQ(hub_.gather(0.05, never), (std::vector<std::size_t>{0, 1}));  // nobody is believed by a hello alone
+  a_.answer();
+  EXPECT_EQ(hub_.gather(0.05, never), (std::vector<std::size_t>{1}));
+  b_.greet();
+  static_cast<void>(hub_.gather(0.05, never));
+  b_.answer();
   EXPECT_TRUE(hub_.gather(5.0, never).empty());
 }
 
@@ -103,6 +117,8 @@ TEST_F(HubAndRobots, ForgedReplayedTruncatedAndForeignPacketsAreDroppedAndCounte
   const Bytes good = a_.tell(0.1F);
   static_cast<void>(hub_.wait_for(1, never));
   EXPECT_EQ(velocity(0), 0.1F);
+  std::vector<std::string> told;
+  hub_.tell_refusals([&](const std::string& text) { told.push_back(text); });
   const Socket attacker(anywhere);
   attacker.send(good, hub_.local());  // replayed, from elsewhere
   Bytes changed = good;
@@ -113,9 +129,9 @@ TEST_F(HubAndRobots, ForgedReplayedTruncatedAndForeignPacketsAreDroppedAndCounte
   attacker.send(Bytes(100, 0x55), hub_.local());                       // foreign
   attacker.send(Bytes(5000, 0x55), hub_.local());                      // longer than any
   SecureChannel unknown(7, hub_node, 5000);
-  attacker.send(unknown.seal(EnvelopeKind::hello, {}, fleet_keys()), hub_.local());  // no robot of this mission
-  attacker.send(SecureChannel(0, hub_node, 999).seal(EnvelopeKind::hello, {}, fleet_keys()),
-                hub_.local());              // from before its start
+  attacker.send(unknown.ask(0.0, fleet_keys()), hub_.local());  // no robot of this mission
+  attacker.send(SecureChannel(0, hub_node, 999).seal(EnvelopeKind::status, {}, fleet_keys()),
+                hub_.local());              // from another session, which has said nothing lately
   a_.say(EnvelopeKind::status, {1, 2, 3});  // authentic nonsense
   static_cast<void>(hub_.wait_for(2, never));
   EXPECT_EQ(velocity(0), std::nullopt);
@@ -123,8 +139,17 @@ TEST_F(HubAndRobots, ForgedReplayedTruncatedAndForeignPacketsAreDroppedAndCounte
   EXPECT_EQ(dropped(Drop::forged), 2U);
   EXPECT_EQ(dropped(Drop::foreign), 3U);
   EXPECT_EQ(dropped(Drop::misaddressed), 1U);
-  EXPECT_EQ(dropped(Drop::stale), 1U);
+  EXPECT_EQ(dropped(Drop::in_use), 1U);
   EXPECT_EQ(dropped(Drop::malformed), 1U);
+  // Each is named at once, and only once.
+  const auto times = [&](const std::string& words) {
+    return std::ranges::count_if(told, [&](const std::string& text) { return text.find(words) != std::string::npos; });
+  };
+  EXPECT_EQ(times("refused 127.0.0.1:" + std::to_string(attacker.local().port()) + ": its datagrams are another"), 1);
+  EXPECT_EQ(times("its key file has another key of the same number"), 1);
+  EXPECT_EQ(times("refused robot 7 at 127.0.0.1:"), 1);
+  EXPECT_EQ(times("refused robot 0 at 127.0.0.1:"), 1);
+  EXPECT_EQ(told.size(), 4U);
   // Nor has the hub been misled about where the robot is.
   hub_.deliver(0, {}, {});
   EXPECT_EQ(a_.hear().size(), 1U);
@@ -136,9 +161,16 @@ TEST_F(HubAndRobots, ARobotThatStartsAgainHasTakenPart) {
   static_cast<void>(hub_.wait_for(1, never));
   ASSERT_TRUE(hub_.take(0));
   const Bytes held_back = a_.channel.seal(EnvelopeKind::status, encode(Status{}), a_.keys);
-  FakeRobot again(0, hub_, 2000);
-  again.say(EnvelopeKind::hello);
-  static_cast<void>(hub_.wait_for(2, never));
+  // The clock of a computer without a battery says that it is earlier; sessions are random.
+  FakeRobot again(0, hub_, 20);
+  for (std::uint32_t tick = 2; tick < 9; ++tick) static_cast<void>(hub_.wait_for(tick, never));
+  again.greet();
+  for (std::uint32_t tick = 9; tick < 13; ++tick) static_cast<void>(hub_.wait_for(tick, never));
+  again.answer();
+  again.greet();
+  static_cast<void>(hub_.wait_for(13, never));
+  again.answer();
+  static_cast<void>(hub_.wait_for(14, never));
   hub_.deliver(0, {}, {});
   const auto heard = again.hear();
   ASSERT_EQ(heard.size(), 1U);
@@ -147,9 +179,9 @@ TEST_F(HubAndRobots, ARobotThatStartsAgainHasTakenPart) {
   EXPECT_TRUE(frame->begun);
   again.tell(0.3F);
   again.socket.send(held_back, hub_.local());
-  static_cast<void>(hub_.wait_for(3, never));
+  static_cast<void>(hub_.wait_for(15, never));
   EXPECT_EQ(velocity(0), 0.3F);
-  EXPECT_EQ(dropped(Drop::stale), 1U);
+  EXPECT_EQ(dropped(Drop::in_use), 2U);  // its first hello came too early
 }
 
 TEST_F(HubAndRobots, WhatIsHeardTravelsInAsManyDatagramsAsWanted) {
@@ -161,8 +193,7 @@ TEST_F(HubAndRobots, WhatIsHeardTravelsInAsManyDatagramsAsWanted) {
   bundled.bundle = 64;
   Hub hub(bundled, 1, fleet_keys(), nullptr);
   FakeRobot robot(0, hub);
-  robot.say(EnvelopeKind::hello);
-  ASSERT_TRUE(hub.gather(5.0, never).empty());
+  join(hub, {&robot});
   hub.deliver(0, {}, heard);
   std::size_t packets = 0;
   const auto datagrams = robot.hear();
@@ -202,8 +233,7 @@ TEST_F(HubAndRobots, AHubPlaysItsTapeAndGoesOn) {
     HubJournal journal(path, 1, 2);
     Hub hub(options(), 1, fleet_keys(), &journal);
     FakeRobot robot(0, hub);
-    robot.say(EnvelopeKind::hello);
-    ASSERT_TRUE(hub.gather(5.0, never).empty());
+    join(hub, {&robot});
     for (std::uint32_t tick = 0; tick < 5; ++tick) {
       static_cast<void>(hub.wait_for(tick, never));
       hub.deliver(0, {}, {});
@@ -225,8 +255,10 @@ TEST_F(HubAndRobots, AHubPlaysItsTapeAndGoesOn) {
     hub.deliver(0, {}, {});
   }
   EXPECT_EQ(hub.counts().sent, 0U);
-  robot.say(EnvelopeKind::hello);
+  robot.greet();
   static_cast<void>(hub.wait_for(5, never));
+  robot.answer();
+  static_cast<void>(hub.wait_for(6, never));
   hub.deliver(0, {}, {});
   const auto heard = robot.hear();
   ASSERT_EQ(heard.size(), 1U);

@@ -21,9 +21,11 @@ class PeersTest : public testing::Test {
   void introduce(Peers& from, Peers& to, double now_s = 0.0) {
     const auto asked = give(to, from.speak(word_, keys_), now_s);
     ASSERT_FALSE(asked.reply.empty());
-    const auto answered = give(from, asked.reply);
+    const auto answered = give(from, asked.reply, now_s);
     ASSERT_FALSE(answered.reply.empty());
-    EXPECT_FALSE(give(to, answered.reply).drop);
+    const auto met = give(to, answered.reply, now_s);
+    EXPECT_FALSE(met.drop);
+    if (!met.reply.empty()) static_cast<void>(give(from, met.reply, now_s));
   }
   KeyRing keys_{{SecretKey{1, {7}}}};
   Bytes word_{1, 2, 3};
@@ -46,23 +48,57 @@ TEST_F(PeersTest, WhatWasRecordedCountsForNothing) {
   const auto again = give(later, said);
   EXPECT_EQ(again.what, What::nothing);
   EXPECT_FALSE(again.reply.empty());
-  // A recorded hello of a is answered, and proves nothing.
+  // A recorded hello of a is answered, and proves nothing; nor does what a has answered others, or an earlier b.
   Peers first_b(2, 2500);
-  const Bytes hello = give(a_, first_b.speak(word_, keys_)).reply;
-  const Bytes answer = give(first_b, hello).reply;
+  const Bytes hello = give(a_, first_b.speak(word_, keys_), 1.5).reply;
+  const Bytes asked = give(first_b, a_.speak(word_, keys_), 1.0).reply;
+  const Bytes answer = give(a_, asked).reply;
   static_cast<void>(give(later, hello));
+  EXPECT_EQ(give(later, answer).drop, Drop::stale);
   EXPECT_EQ(give(later, said, 0.05).what, What::nothing);
-  EXPECT_EQ(give(a_, answer).drop, std::nullopt);
-  EXPECT_EQ(give(a_, answer).drop, Drop::replayed);
+  EXPECT_FALSE(give(first_b, answer, 1.0).drop);
+  EXPECT_EQ(give(first_b, answer).drop, Drop::stale);
 }
 
-TEST_F(PeersTest, WhoStartsAgainIsAskedAgainAndItsOldPacketsAreStale) {
+TEST_F(PeersTest, AnAnswerThatComesTooLateIsNone) {
+  const Bytes asked = give(b_, a_.speak(word_, keys_)).reply;
+  const Bytes answer = give(a_, asked).reply;
+  EXPECT_EQ(give(b_, answer, 10.5).drop, Drop::stale);
+  introduce(a_, b_, 11.0);
+}
+
+// Whatever its clock says: the numbers of sessions mean nothing.
+TEST_F(PeersTest, WhoStartsAgainIsAskedAgainAndItsOldPacketsCountForNothing) {
   introduce(a_, b_);
-  const Bytes old = a_.speak(word_, keys_);
-  Peers restarted(1, 5000);
-  introduce(restarted, b_, 1.0);
-  EXPECT_EQ(give(b_, restarted.speak(word_, keys_)).what, What::message);
-  EXPECT_EQ(give(b_, old).drop, Drop::stale);
+  double now_s = 0.0;
+  for (const std::uint64_t session : {5000U, 900U, 70U}) {
+    const Bytes old = a_.speak(word_, keys_);
+    a_ = Peers(1, session);
+    introduce(a_, b_, now_s += 1.5);
+    EXPECT_EQ(give(b_, a_.speak(word_, keys_), now_s).what, What::message);
+    EXPECT_EQ(give(b_, old, now_s + 0.1).what, What::nothing);
+    EXPECT_EQ(give(b_, a_.speak(word_, keys_), now_s + 0.2).what, What::message);
+  }
+}
+
+TEST_F(PeersTest, AnIdBelongsToWhoHasItAndASecondOneIsNoticed) {
+  introduce(a_, b_);
+  Peers second(1, 5000);
+  double now_s = 0.0, noticed_s = 0.0;
+  for (; now_s < 2.0; now_s += 0.1) {
+    const auto refused = give(b_, second.speak(word_, keys_), now_s);
+    EXPECT_EQ(refused.drop, Drop::in_use);
+    EXPECT_TRUE(refused.reply.empty());
+    const auto heard = give(b_, a_.speak(word_, keys_), now_s + 0.05);
+    EXPECT_EQ(heard.what, What::message);
+    if (heard.is_contested && noticed_s == 0.0) noticed_s = now_s;
+  }
+  EXPECT_NEAR(noticed_s, 0.3, 0.11);  // until then it may have been under way when the first one ended
+  EXPECT_TRUE(give(a_, second.speak(word_, keys_), now_s).is_contested);
+  // The first one ends, and the second takes its place.
+  EXPECT_EQ(give(b_, second.speak(word_, keys_), now_s + 0.5).drop, Drop::in_use);
+  introduce(second, b_, now_s + 1.5);
+  EXPECT_EQ(give(b_, second.speak(word_, keys_), now_s + 1.6).what, What::message);
 }
 
 TEST_F(PeersTest, AsksFiveTimesASecond) {
@@ -84,9 +120,12 @@ TEST_F(PeersTest, StopsForAStopperThatIsThereNow) {
     Drop reason{};
     return stopper.take(*authenticate(datagram, keys_, reason), keys_);
   };
-  const Bytes stop = open(give(a_, stopper.call(keys_)).reply);
-  ASSERT_FALSE(stop.empty());
+  const auto replies = open(give(a_, stopper.call(keys_)).reply);
+  ASSERT_EQ(replies.size(), 2U);
   EXPECT_FALSE(stopper.robots().at(1));
+  const Bytes& stop = replies[1];
+  EXPECT_EQ(give(a_, stop).what, What::nothing);  // nobody is believed before it has answered
+  EXPECT_FALSE(give(a_, replies[0]).drop);
   const auto taken = give(a_, stop);
   EXPECT_EQ(taken.what, What::stop);
   static_cast<void>(open(taken.reply));
@@ -102,8 +141,10 @@ TEST_F(PeersTest, WhatIsForOthersIsMisaddressed) {
   EXPECT_EQ(give(b_, seal({EnvelopeKind::spoken, 1, 2, 1000, 0, 1, word_}, keys_.signing())).drop, Drop::misaddressed);
   EXPECT_EQ(give(b_, seal({EnvelopeKind::spoken, hub_node, everybody, 1000, 0, 1, word_}, keys_.signing())).drop,
             Drop::misaddressed);
-  EXPECT_EQ(give(b_, seal({EnvelopeKind::hello, 1, everybody, 1000, 0, 1, {}}, keys_.signing())).drop,
+  EXPECT_EQ(give(b_, seal({EnvelopeKind::hello, 1, everybody, 1000, 0, 1, word_}, keys_.signing())).drop,
             Drop::misaddressed);
+  EXPECT_EQ(give(b_, seal({EnvelopeKind::frame, hub_node, 2, 1000, 2000, 1, word_}, keys_.signing())).drop,
+            Drop::malformed);
 }
 
 TEST_F(PeersTest, OnlyWhoListensTakesAccountsAndOnlyOfWhoIsRunning) {
@@ -114,7 +155,9 @@ TEST_F(PeersTest, OnlyWhoListensTakesAccountsAndOnlyOfWhoIsRunning) {
   EXPECT_EQ(asked.what, What::nothing);
   const auto answered = give(a_, asked.reply);
   EXPECT_EQ(answered.what, What::nothing);  // and nobody stops
-  EXPECT_FALSE(give(listener, answered.reply).drop);
+  const auto met = give(listener, answered.reply);
+  EXPECT_FALSE(met.drop);
+  EXPECT_FALSE(give(a_, met.reply).drop);
   const Bytes told = a_.tell(word_, keys_);
   EXPECT_EQ(give(listener, told).what, What::account);
   EXPECT_EQ(give(listener, told).drop, Drop::replayed);

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "banyan/hosts/udp/driver.hpp"
 #include "banyan/hosts/udp/envelope.hpp"
+#include "banyan/hosts/udp/refusals.hpp"
 #include "banyan/hosts/udp/robot.hpp"
 #include "banyan/hosts/udp/robot_options.hpp"
 #include "banyan/hosts/udp/socket.hpp"
@@ -15,8 +17,8 @@ namespace banyan::udp {
 class Contact {
  public:
   virtual ~Contact() = default;
-  // An authentic datagram; whether it is accepted.
-  virtual bool take(const Envelope& envelope, const Address& from, double now_s) = 0;
+  // An authentic datagram; why it is dropped, if it is.
+  virtual std::optional<Drop> take(const Envelope& envelope, const Address& from, double now_s) = 0;
   // Before each step: what the robot has to know of this moment.
   virtual void guide(double now_s) = 0;
   // After a step.
@@ -38,6 +40,7 @@ struct ContactEnds {
   const Driver& driver;
   UdpRobot& robot;
   const KeyRing& keys;
+  Refusals& refusals;
 };
 [[nodiscard]] std::unique_ptr<Contact> contact_with_hub(const ContactEnds& ends);    // throws SocketError
 [[nodiscard]] std::unique_ptr<Contact> contact_with_peers(const ContactEnds& ends);  // throws SocketError

@@ -14,6 +14,7 @@
 #include "banyan/hosts/udp/journal.hpp"
 #include "banyan/hosts/udp/periods.hpp"
 #include "banyan/hosts/udp/pose_stream.hpp"
+#include "banyan/hosts/udp/refusals.hpp"
 #include "banyan/hosts/udp/remote_swarm.hpp"
 #include "banyan/hosts/udp/socket.hpp"
 
@@ -59,6 +60,7 @@ class Hub final : public RemoteLink {
 
   // From now on.
   void use(const KeyRing& keys) { keys_ = keys; }
+  void tell_refusals(Refusals::Tell tell) { refusals_.tell(std::move(tell)); }
 
   [[nodiscard]] const HubCounts& counts() const noexcept { return counts_; }
   [[nodiscard]] bool is_replaying(std::uint32_t tick) const noexcept {
@@ -75,7 +77,7 @@ class Hub final : public RemoteLink {
     explicit Robot(const SecureChannel& to) noexcept : channel(to) {}
     SecureChannel channel;
     std::optional<Address> address;  // where it was heard from last
-    std::uint64_t boot = 0;          // of the newest status
+    std::uint64_t session = 0;       // of the newest status
     std::uint32_t counter = 0;       // likewise
     Bytes arrived;                   // that status; empty: taken
     bool begun = false;              // it has taken part
@@ -87,6 +89,7 @@ class Hub final : public RemoteLink {
 
   void listen();
   void take(const Envelope& envelope, const Address& from);
+  void refuse(Drop reason, const Address& from, std::optional<NodeId> sender);
   void send(Robot& robot, EnvelopeKind kind, const Bytes& payload);
   void send_heard(Robot& robot, const SensorFrame& frame, std::span<const Hearing> heard);
   void keep_time(std::uint32_t tick, const Stopped& stopped);
@@ -99,6 +102,7 @@ class Hub final : public RemoteLink {
   HubJournal* journal_;
   PoseStream* tracker_ = nullptr;  // none: bodies are simulated
   std::function<void()> look_;
+  Refusals refusals_;
   Socket socket_;
   Clock clock_;
   std::uint32_t mission_;

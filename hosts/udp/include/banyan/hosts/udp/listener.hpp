@@ -8,6 +8,7 @@
 
 #include "banyan/hosts/udp/chart.hpp"
 #include "banyan/hosts/udp/peers.hpp"
+#include "banyan/hosts/udp/refusals.hpp"
 #include "banyan/hosts/udp/remote_swarm.hpp"
 #include "banyan/hosts/udp/socket.hpp"
 
@@ -31,6 +32,7 @@ class Listener final : public RemoteLink {
   // Waits for the moment of that tick; the robots that count as dead from now on. Ends early if it is stopped.
   [[nodiscard]] std::vector<std::size_t> wait_for(std::uint32_t tick, const Stopped& stopped);
 
+  void tell_refusals(Refusals::Tell tell) { refusals_.tell(std::move(tell)); }
   [[nodiscard]] const Chart& chart() const noexcept { return chart_; }
   [[nodiscard]] const std::optional<Status>& last(std::size_t i) const noexcept { return robots_[i].last; }
   [[nodiscard]] std::uint64_t received() const noexcept { return received_; }
@@ -57,6 +59,7 @@ class Listener final : public RemoteLink {
   Socket socket_;
   Clock clock_;
   Peers peers_;
+  Refusals refusals_;
   Chart chart_;
   std::vector<Robot> robots_;
   std::optional<double> begin_s_;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Whom a hub, a robot or a listener refuses, in words, at once. Each is told once, and not more than 32: whoever has no
+// key must not fill a log.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "banyan/hosts/udp/envelope.hpp"
+#include "banyan/hosts/udp/socket.hpp"
+
+namespace banyan::udp {
+
+class Refusals {
+ public:
+  using Tell = std::function<void(const std::string& text)>;
+  // Nobody is told, by default.
+  void tell(Tell tell) { tell_ = std::move(tell); }
+
+  // Datagrams from there are dropped; `sender` where it is authentic. What happens to everybody now and then (stale,
+  // replayed) is not told.
+  void refuse(Drop reason, const Address& from, std::optional<NodeId> sender);
+  // Two programs say that they are the same robot: the one here is believed, another one is not.
+  void rival(NodeId robot, const Address& believed);
+  // Anything else that is told once.
+  void once(const std::string& text);
+
+ private:
+  Tell tell_;
+  std::set<std::string> told_;
+  std::map<NodeId, Address> rivals_;  // where somebody was heard last whose id was in use
+};
+
+}  // namespace banyan::udp

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/hosts/udp/refusals.hpp"
+
+namespace banyan::udp {
+namespace {
+
+std::string name_of(NodeId node) { return node == hub_node ? "the hub" : "robot " + std::to_string(node); }
+
+}  // namespace
+
+void Refusals::once(const std::string& text) {
+  constexpr std::size_t most = 32;
+  if (!tell_ || told_.size() > most || !told_.insert(text).second) return;
+  tell_(told_.size() <= most ? text : "more are refused than can be told; they are counted");
+}
+
+void Refusals::refuse(Drop reason, const Address& from, std::optional<NodeId> sender) {
+  const std::string where = to_string(from);
+  const std::string who = "refused " + (sender ? name_of(*sender) + " at " + where : where) + ": ";
+  switch (reason) {
+    case Drop::foreign:
+      return once(who +
+                  "its datagrams are another program's, or of another version of Banyan, or of a key whose "
+                  "number is not in the key file");
+    case Drop::forged: return once(who + "its key file has another key of the same number");
+    case Drop::misaddressed:
+      if (sender) once(who + "nobody of this id is expected here");
+      return;
+    case Drop::malformed: return once(who + "its datagrams cannot be read; is it of another version of Banyan?");
+    case Drop::in_use:
+      if (sender) rivals_[*sender] = from;
+      return;
+    case Drop::stale:
+    case Drop::replayed: return;
+  }
+}
+
+void Refusals::rival(NodeId robot, const Address& believed) {
+  const auto other = rivals_.find(robot);
+  once("refused a second robot " + std::to_string(robot) +
+       (other == rivals_.end() ? "" : " at " + to_string(other->second)) + ": the one at " + to_string(believed) +
+       " is running; one of them needs another --id");
+}
+
+}  // namespace banyan::udp
