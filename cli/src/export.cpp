@@ -4,6 +4,8 @@
 
 #include <unistd.h>
 
+#include <filesystem>
+
 #include "commands.hpp"
 #include "options.hpp"
 #include "recordings.hpp"
@@ -23,8 +25,19 @@ struct ExportCommand {
 
 constexpr std::string_view bag_ending = ".mcap";
 
+// Also run.mcap from run.mcap.part: the output is called that until it is whole.
+void refuse_to_replace_the_source(const ExportCommand& options) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::path output = fs::weakly_canonical(options.output, ignored);
+  for (const fs::path& written : {output, fs::path(output.string() + ".part")})
+    if (fs::equivalent(options.recording, written, ignored))
+      throw CommandError(exit_usage, options.output + " would replace the recording itself; give another name");
+}
+
 int export_command(const ExportCommand& options) {
   refuse_to_overwrite(options.output, options.force);
+  if (options.output != "-") refuse_to_replace_the_source(options);
   if (options.from_s > options.to_s) throw CommandError(exit_usage, "--from is later than --to: nothing to export");
   auto recording = open_recording(options.recording);
   const auto told = recording.warnings();
