@@ -2,6 +2,7 @@
 // A frame as messages of ROS 2 (ros2.hpp).
 #include "banyan/record/ros2.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <initializer_list>
@@ -101,14 +102,22 @@ std::string with_parts(std::string_view definition, std::initializer_list<Defini
 
 // --- What several messages contain.
 
-// As fine as frames are, 0.1 mm and 0.1 mrad: further digits would be half the bytes of a chunk.
-constexpr double steps_per_m = 16384.0, steps_of_turn = 65536.0;
+// Digits that nobody sees would be half the bytes of a chunk.
 double rounded(double value, double steps) noexcept { return std::floor(value * steps + 0.5) / steps; }
 
+// As fine as frames are, 0.1 mm and 0.1 mrad.
+constexpr double steps_per_m = 16384.0, steps_of_turn = 65536.0;
+
+// For pictures: 64 to 128 steps are a body's radius.
+double picture_steps(double radius_m) noexcept {
+  const int exponent = radius_m > 0.0 ? std::clamp(6 - std::ilogb(radius_m), 0, 30) : 14;
+  return std::ldexp(1.0, exponent);
+}
+
 void put_xyz(CdrWriter& out, double x, double y, double z) {
-  out.real(rounded(x, steps_per_m));
-  out.real(rounded(y, steps_per_m));
-  out.real(rounded(z, steps_per_m));
+  out.real(x);
+  out.real(y);
+  out.real(z);
 }
 
 void put_turn(CdrWriter& out, double angle_rad) {  // about z
@@ -149,13 +158,31 @@ struct MarkerLooks {
   std::string_view text;
 };
 
-constexpr double robot_height_m = 0.06;  // Khepera IV
-constexpr double wall_height_m = 0.15;
-constexpr double wall_thickness_m = 0.03;
+// Robots are from 1 cm to metres wide, and reach from 10 cm to 1 km: what there is to see grows with them.
+struct Dimensions {
+  explicit Dimensions(const Setting& setting)
+      : body_height(0.85 * setting.radius_m),
+        wall_height(2.0 * setting.radius_m),
+        wall_thickness(0.4 * setting.radius_m),
+        edge_thickness(std::max(setting.radius_m / 3.0, setting.range_m / 200.0)),
+        letter_height(setting.range_m / 8.0) {}
+  double body_height, wall_height, wall_thickness, edge_thickness, letter_height;  // m
+};
+
+struct PointWriter {
+  CdrWriter& out;
+  double steps;  // per m
+  void point(Vec2 p, double z) const { put_xyz(out, rounded(p.x, steps), rounded(p.y, steps), z); }
+  void segment(Vec2 a, Vec2 b, double z) const {
+    point(a, z);
+    point(b, z);
+  }
+};
 
 class MarkerWriter {
  public:
-  MarkerWriter(CdrWriter& out, const Stamp& stamp) : out_(out), stamp_(stamp), array_(out.sequence()) {}
+  MarkerWriter(CdrWriter& out, const Stamp& stamp, double radius_m)
+      : out_(out), stamp_(stamp), points_{out, picture_steps(radius_m)}, array_(out.sequence()) {}
 
   void delete_all() {
     head(0, {}, MarkerAction::delete_all);
@@ -176,7 +203,7 @@ class MarkerWriter {
     const std::size_t before = out_.size();
     head(0, looks, MarkerAction::add);
     const std::size_t points = out_.sequence();
-    const std::uint32_t number = put_points(out_);
+    const std::uint32_t number = put_points(points_);
     if (number == 0) {
       out_.cut(before);
       --count_;
@@ -224,14 +251,10 @@ class MarkerWriter {
 
   CdrWriter& out_;
   const Stamp& stamp_;
+  PointWriter points_;
   std::size_t array_;
   std::uint32_t count_ = 0;
 };
-
-void put_segment(CdrWriter& out, Vec2 a, Vec2 b, double z) {
-  put_xyz(out, a.x, a.y, z);
-  put_xyz(out, b.x, b.y, z);
-}
 
 MarkerLooks lines(std::string_view layer, const Color& color, double thickness_m) {
   MarkerLooks looks;
@@ -242,67 +265,75 @@ MarkerLooks lines(std::string_view layer, const Color& color, double thickness_m
   return looks;
 }
 
+// --- What there is to see. Edges lie below the tops of bodies.
+
 void mark_robots(MarkerWriter& markers, const Setting& setting, const Frame& frame) {
+  const double height = Dimensions(setting).body_height;
   const auto number = static_cast<std::uint32_t>(frame.robots.size());
   MarkerLooks bodies;
   bodies.layer = "robots";
   bodies.shape = MarkerKind::sphere_list;
-  bodies.scale = {2.0 * setting.radius_m, 2.0 * setting.radius_m, robot_height_m};
+  bodies.scale = {2.0 * setting.radius_m, 2.0 * setting.radius_m, height};
   markers.list(
       bodies,
-      [&](CdrWriter& out) {
-        for (const RobotFrame& r : frame.robots) put_xyz(out, r.position.x, r.position.y, robot_height_m / 2.0);
+      [&](const PointWriter& points) {
+        for (const RobotFrame& r : frame.robots) points.point(r.position, height / 2.0);
         return number;
       },
       [&](CdrWriter& out) {
         for (const RobotFrame& r : frame.robots) put_color(out, color_of(r.role, r.alive), 1.0F);
         return number;
       });
-  markers.list(lines("headings", palette::tree, setting.radius_m / 4.0), [&](CdrWriter& out) {
+  markers.list(lines("headings", palette::tree, setting.radius_m / 4.0), [&](const PointWriter& points) {
     for (const RobotFrame& r : frame.robots) {
-      put_segment(out, r.position, r.position + setting.radius_m * unit_vector(r.heading_rad), robot_height_m);
+      points.segment(r.position, r.position + setting.radius_m * unit_vector(r.heading_rad), height);
     }
     return 2 * number;
   });
 }
 
 void mark_trees(MarkerWriter& markers, const Setting& setting, const Frame& frame) {
+  const Dimensions size(setting);
   const auto edges = [&](std::string_view layer, const Color& color, std::int32_t RobotFrame::*to, double z) {
-    markers.list(lines(layer, color, setting.radius_m / 3.0), [&](CdrWriter& out) {
-      std::uint32_t points = 0;
+    markers.list(lines(layer, color, size.edge_thickness), [&](const PointWriter& points) {
+      std::uint32_t number = 0;
       for (const RobotFrame& r : frame.robots) {
         const std::int32_t parent = r.*to;
         if (!r.alive || parent < 0 || static_cast<std::size_t>(parent) >= frame.robots.size()) continue;
-        put_segment(out, r.position, frame.robots[static_cast<std::size_t>(parent)].position, z);
-        points += 2;
+        points.segment(r.position, frame.robots[static_cast<std::size_t>(parent)].position, z);
+        number += 2;
       }
-      return points;
+      return number;
     });
   };
-  edges("old_tree", palette::old_tree, &RobotFrame::old_parent, 0.02);
-  edges("tree", palette::tree, &RobotFrame::parent, 0.03);
+  edges("old_tree", palette::old_tree, &RobotFrame::old_parent, size.body_height / 3.0);
+  edges("tree", palette::tree, &RobotFrame::parent, size.body_height / 2.0);
 }
 
 void mark_links(MarkerWriter& markers, const Setting& setting, const Frame& frame, const RadioLinks& links) {
-  markers.list(lines("links", palette::link, setting.radius_m / 8.0), [&](CdrWriter& out) {
-    for (const auto& [i, j] : links.open) put_segment(out, frame.robots[i].position, frame.robots[j].position, 0.01);
+  const Dimensions size(setting);
+  markers.list(lines("links", palette::link, size.edge_thickness / 3.0), [&](const PointWriter& points) {
+    for (const auto& [i, j] : links.open) {
+      points.segment(frame.robots[i].position, frame.robots[j].position, size.body_height / 6.0);
+    }
     return static_cast<std::uint32_t>(2 * links.open.size());
   });
 }
 
 void mark_targets(MarkerWriter& markers, const Setting& setting, const Frame& frame) {
+  const Dimensions size(setting);
   MarkerLooks disc;
   disc.layer = "targets";
   disc.shape = MarkerKind::cylinder;
-  disc.scale = {2.0 * setting.target_tolerance_m, 2.0 * setting.target_tolerance_m, 0.005};
+  disc.scale = {2.0 * setting.target_tolerance_m, 2.0 * setting.target_tolerance_m, size.body_height / 10.0};
   disc.z = disc.scale.z / 2.0;
   disc.color = palette::target;
   disc.alpha = 0.5F;
   MarkerLooks name;
   name.layer = "target_names";
   name.shape = MarkerKind::text;
-  name.scale.z = 0.25;
-  name.z = 0.35;
+  name.scale.z = size.letter_height;
+  name.z = 1.5 * size.letter_height;
   name.color = palette::target;
   for (std::size_t k = 0; k < frame.targets.size(); ++k) {
     if (!frame.targets[k].active) continue;
@@ -314,33 +345,35 @@ void mark_targets(MarkerWriter& markers, const Setting& setting, const Frame& fr
   }
 }
 
-MarkerLooks looks_of(const world::Disc& disc) {
+MarkerLooks looks_of(const world::Disc& disc, const Dimensions& size) {
   MarkerLooks looks;
   looks.shape = MarkerKind::cylinder;
   looks.position = disc.center;
-  looks.scale = {2.0 * disc.radius_m, 2.0 * disc.radius_m, wall_height_m};
+  looks.scale = {2.0 * disc.radius_m, 2.0 * disc.radius_m, size.wall_height};
   return looks;
 }
-MarkerLooks looks_of(const world::Box& box) {
+MarkerLooks looks_of(const world::Box& box, const Dimensions& size) {
   MarkerLooks looks;
   looks.position = box.center;
   looks.angle_rad = box.angle_rad;
-  looks.scale = {box.size.x, box.size.y, wall_height_m};
+  looks.scale = {box.size.x, box.size.y, size.wall_height};
   return looks;
 }
-MarkerLooks looks_of(const world::Wall& wall) {
+MarkerLooks looks_of(const world::Wall& wall, const Dimensions& size) {
   MarkerLooks looks;
   looks.position = 0.5 * (wall.from + wall.to);
   looks.angle_rad = angle_of(wall.to - wall.from);
-  looks.scale = {distance(wall.from, wall.to), wall_thickness_m, wall_height_m};
+  looks.scale = {distance(wall.from, wall.to), size.wall_thickness, size.wall_height};
   return looks;
 }
 
 void mark_obstacles(MarkerWriter& markers, const Setting& setting) {
+  const Dimensions size(setting);
   for (std::size_t k = 0; k < setting.obstacles.size(); ++k) {
-    MarkerLooks looks = std::visit([](const auto& obstacle) { return looks_of(obstacle); }, setting.obstacles[k]);
+    MarkerLooks looks =
+        std::visit([&](const auto& obstacle) { return looks_of(obstacle, size); }, setting.obstacles[k]);
     looks.layer = "obstacles";
-    looks.z = wall_height_m / 2.0;
+    looks.z = size.wall_height / 2.0;
     looks.color = palette::obstacle;
     markers.one(k, looks);
   }
@@ -421,7 +454,7 @@ void write_transforms(CdrWriter& out, const Stamp& stamp, const Frame& frame) {
     put_header(out, stamp);
     name_body(body, stamp.body, i);
     out.string(body);
-    put_xyz(out, robot.position.x, robot.position.y, 0.0);
+    put_xyz(out, rounded(robot.position.x, steps_per_m), rounded(robot.position.y, steps_per_m), 0.0);
     put_turn(out, robot.heading_rad);
   }
 }
@@ -429,7 +462,7 @@ void write_transforms(CdrWriter& out, const Stamp& stamp, const Frame& frame) {
 void write_markers(CdrWriter& out, const Stamp& stamp, const Setting& setting, const Frame& frame,
                    const RadioLinks* links) {
   out.clear();
-  MarkerWriter markers(out, stamp);
+  MarkerWriter markers(out, stamp, setting.radius_m);
   markers.delete_all();
   mark_robots(markers, setting, frame);
   mark_trees(markers, setting, frame);
