@@ -544,6 +544,22 @@ TEST_F(Program, ALargeRunThatIsKilledAtOnceLeavesARecordingThatCanBeRead) {
   EXPECT_TRUE(exported.code == 0 || has(exported.err, "the recording holds no frames")) << exported.err;
 }
 
+TEST_F(Program, ABagDoesNotReplaceTheRecordingItIsMadeOf) {
+  ASSERT_EQ(run({"run", "small.toml", "-q", "--out", "o"}).code, 0);
+  const auto bag = run({"export", "o/run.mcap", "-o", "bag.mcap"});
+  EXPECT_EQ(bag.code, 0) << bag.err;
+  EXPECT_TRUE(has(bag.err, " messages to bag.mcap")) << bag.err;
+  EXPECT_GT(fs::file_size(home_ / "bag.mcap"), 1000U);
+  const std::string before = read("o/run.mcap");
+  const auto itself = run({"export", "o/run.mcap", "-o", "o/../o/run.mcap", "--force"});
+  EXPECT_EQ(itself.code, 2);
+  EXPECT_TRUE(has(itself.err, "would replace the recording itself; give another name")) << itself.err;
+  EXPECT_EQ(read("o/run.mcap"), before);
+  fs::rename(home_ / "o/run.mcap", home_ / "o/run.mcap.part");
+  EXPECT_EQ(run({"export", "o/run.mcap.part", "-o", "o/run.mcap"}).code, 2);
+  EXPECT_EQ(read("o/run.mcap.part"), before);
+}
+
 // nohup banyan run ... goes on when its terminal is closed.
 TEST_F(Program, AnIgnoredHangupStaysIgnored) {
   const std::string script = "trap '' HUP; exec \"$0\" run endless.toml --set mission.time_limit_s=20 -q --out o";

@@ -250,15 +250,6 @@ std::uint64_t nanoseconds(double time_s) noexcept {
   return time_s > 0.0 ? static_cast<std::uint64_t>(std::min(time_s, 9e9) * 1e9 + 0.5) : 0;
 }
 
-void write_time(Text& out, double time_s) {
-  const std::uint64_t ns = nanoseconds(time_s);
-  out.put("{\"sec\":");
-  out.natural(ns / 1000000000U);
-  out.put(",\"nsec\":");
-  out.natural(ns % 1000000000U);
-  out.put('}');
-}
-
 std::span<const FrameColumn> frame_columns() noexcept {
   static constexpr auto columns = [] {
     std::array<FrameColumn, of_robot.size()> list{};
@@ -408,20 +399,6 @@ RecordedEvent read_event(std::string_view text) {
   event.target = static_cast<std::int64_t>(number_of(o, "target", -1.0, most_of_event));
   event.text = text_of(o, "text");
   return event;
-}
-
-void write_log(Text& out, const RecordedEvent& event) {
-  constexpr int info = 2, warning = 3;
-  const bool bad = event.kind == "death" || event.kind == "split" || event.kind == "edges_broken";
-  out.put("{\"timestamp\":");
-  write_time(out, event.time_s);
-  out.put(",\"level\":");
-  out.integer(bad ? warning : info);
-  out.put(",\"message\":");
-  out.json_string(event.text);
-  out.put(",\"name\":");
-  out.json_string(event.kind);
-  out.put(",\"file\":\"\",\"line\":0}");
 }
 
 void write_setting(Text& out, const Setting& s) {

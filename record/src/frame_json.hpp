@@ -23,7 +23,6 @@ void write_messages(Text& out, std::uint64_t tick, double time_s, const MessageN
 void write_targets(Text& out, const Frame& frame);
 void write_metrics(Text& out, const measure::Tick& tick);
 void write_event(Text& out, const RecordedEvent& event);
-void write_log(Text& out, const RecordedEvent& event);  // foxglove.Log
 void write_setting(Text& out, const Setting& setting);
 
 // Throw std::runtime_error with what is wrong. A frame's targets are left alone.
@@ -41,8 +40,6 @@ void read_frame(std::string_view text, Frame& frame);
 [[nodiscard]] std::string event_schema();
 [[nodiscard]] std::string setting_schema();
 
-// "sec" and "nsec" of a moment, as Foxglove writes times.
-void write_time(Text& out, double time_s);
 [[nodiscard]] std::uint64_t nanoseconds(double time_s) noexcept;
 
 }  // namespace banyan::record

@@ -8,10 +8,9 @@
 #include "banyan/record/events.hpp"
 #include "banyan/record/mcap.hpp"
 #include "banyan/record/recording.hpp"
+#include "banyan/record/ros2.hpp"
 #include "cell.hpp"
 #include "frame_json.hpp"
-#include "scene.hpp"
-#include "schemas.hpp"
 
 namespace banyan::record {
 
@@ -40,9 +39,10 @@ struct Recorder::Impl {
   Provenance provenance;
   OutputFile file;
   mcap::Writer mcap;
-  std::uint16_t frames = 0, messages = 0, scene = 0;                          // channels: large ones,
+  std::uint16_t frames = 0, messages = 0, markers = 0, transforms = 0;        // channels: large ones,
   std::uint16_t targets = 0, metrics = 0, events = 0, log = 0, settings = 0;  // small ones
   Text text;
+  ros2::CdrWriter cdr;
   EventWatcher watcher;
   Setting setting;
   Frame now;
@@ -59,6 +59,8 @@ struct Recorder::Impl {
     mcap.message(channel, nanoseconds(now.time_s), text.view());
     text.clear();
   }
+  [[nodiscard]] ros2::Stamp stamp() const { return {.nanoseconds = nanoseconds(now.time_s)}; }
+  void put_cdr(std::uint16_t channel) { mcap.message(channel, nanoseconds(now.time_s), cdr.view()); }
   void record(const Setting& current, const measure::Tick& tick);
   void show_live();
   void put_frame();
@@ -77,8 +79,11 @@ void Recorder::Impl::add_channels() {
   targets = add("/banyan/targets", "banyan.Targets", targets_schema(), small);
   metrics = add("/banyan/metrics", "banyan.Metrics", metrics_schema(), small);
   events = add("/banyan/events", "banyan.Event", event_schema(), small);
-  log = add("/log", "foxglove.Log", log_schema, small);
-  if (options.scene_period_s > 0.0) scene = add("/scene", "foxglove.SceneUpdate", scene_update_schema, large);
+  log = ros2::add_channel(mcap, ros2::log_topic, ros2::log_type(), small);
+  if (options.scene_period_s > 0.0) {
+    markers = ros2::add_channel(mcap, ros2::markers_topic, ros2::markers_type(), large);
+    transforms = ros2::add_channel(mcap, ros2::transforms_topic, ros2::transforms_type(), large);
+  }
 }
 
 // Its fields are those of the algorithm, which is known from the first frame of a world.
@@ -112,13 +117,15 @@ void Recorder::Impl::put_frame() {
 void Recorder::Impl::put_event(const RecordedEvent& event) {
   write_event(text, event);
   put(events);
-  write_log(text, event);
-  put(log);
+  write_log(cdr, stamp(), event);
+  put_cdr(log);
 }
 
 void Recorder::Impl::put_scene() {
-  write_scene(text, setting, now);
-  put(scene);
+  write_markers(cdr, stamp(), setting, now);
+  put_cdr(markers);
+  write_transforms(cdr, stamp(), now);
+  put_cdr(transforms);
   const double stretch = std::max(1.0, static_cast<double>(now.robots.size()) / scene_full_rate);
   next_scene_s = now.time_s + options.scene_period_s * stretch - 0.5 * setting.tick_s;
 }

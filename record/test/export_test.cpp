@@ -59,7 +59,7 @@ TEST(Export, RangeAndStep) {
   test::record_sample(directory.file("a.mcap"), 3, 40);
   Recording recording(directory.file("a.mcap"));
   std::string all;
-  TableOptions options;
+  ExportOptions options;
   options.from_s = 1.0;
   options.to_s = 2.0;
   options.every = 5;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The container: round trips, seeking, and files that are cut short, foreign or damaged.
-// record/test/mcap/ reads the same files with the official library.
+// record/test/readers/ reads recordings with the libraries of others.
 #include "banyan/record/mcap.hpp"
 
 #include <gtest/gtest.h>

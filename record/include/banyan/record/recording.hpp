@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A run as one MCAP file: what happened at every tick, who asked for it and how it ended. Opens in
-// Foxglove and Lichtblick; the channels are described in docs/file-formats.md.
+// Foxglove, Lichtblick and Rerun; the channels are described in docs/file-formats.md.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ struct Provenance {
 struct RecorderOptions {
   std::uint32_t every_ticks = 1;  // frames and messages; metrics and events are kept at every tick
   bool messages = true;           // what each robot broadcast, at every recorded frame of a world
-  double scene_period_s = 0.5;    // 0: no /scene; stretched in proportion above 1000 robots
+  double scene_period_s = 0.5;    // 0: no /markers and /tf; stretched in proportion above 1000 robots
   int compression_level = 1;      // zstd
   std::size_t chunk_bytes = 1 << 20;
   bool live = false;  // chunks end with every second of the wall clock: for those who read it while it grows
