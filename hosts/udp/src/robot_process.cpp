@@ -3,12 +3,14 @@
 
 #include <signal.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 
 #include "banyan/controller/core/printable.hpp"
 #include "banyan/hosts/udp/contact.hpp"
 #include "banyan/hosts/udp/line_base.hpp"
+#include "banyan/hosts/udp/mavlink_base.hpp"
 
 namespace banyan::udp {
 namespace {
@@ -27,7 +29,8 @@ void catch_signals() {
   ::signal(SIGPIPE, SIG_IGN);  // a base that goes away is noticed when it is read
 }
 
-constexpr double linger_s = 0.5;  // after a stop: to answer it if it is repeated because the answer was lost
+constexpr double longest_wait_s = 0.1;  // however long a step is, the base may have something to do
+constexpr double linger_s = 0.5;        // after a stop: to answer it if it is repeated because the answer was lost
 
 const Algorithm& known_algorithm(const RobotOptions& options, const AlgorithmList& algorithms) {
   const Algorithm* algorithm = algorithms.find(options.algorithm);
@@ -47,8 +50,7 @@ class Process {
       : options_(options),
         keys_(options.key_file),
         socket_(options.listen.empty() ? Address{} : parse_address(options.listen)),
-        driver_(options.base.empty() ? std::unique_ptr<Driver>(std::make_unique<SimulatedWheels>())
-                                     : open_line_base(options.base)),
+        driver_(make_driver(options)),
         robot_(algorithm, options.setup, options.id, options.stop_after_s),
         contact_(make_contact({options_, socket_, *driver_, robot_, keys_.keys()})),
         clock_(options.speed),
@@ -61,9 +63,10 @@ class Process {
     const std::array<int, 2> descriptors{socket_.descriptor(), driver_->descriptor()};
     while (caught == 0 && !driver_->lost() &&
            (stopped_s_ < 0.0 || clock_.now_s() < stopped_s_ + linger_s * options_.speed)) {
-      clock_.wait(descriptors, next_step_s_);
+      clock_.wait(descriptors, std::min(next_step_s_, clock_.now_s() + longest_wait_s));
       if (reread.exchange(false)) refresh_keys(true);
       driver_->listen(clock_.now_s());
+      tell_fault();
       hear();
       if (clock_.now_s() >= next_step_s_) act(clock_.now_s());
     }
@@ -71,6 +74,10 @@ class Process {
   }
 
  private:
+  static std::unique_ptr<Driver> make_driver(const RobotOptions& options) {
+    if (options.base.empty()) return std::make_unique<SimulatedWheels>();
+    return is_mavlink(options.base) ? open_mavlink_base(options) : open_line_base(options.base);
+  }
   static std::unique_ptr<Contact> make_contact(const ContactEnds& ends) {
     return ends.options.peers.empty() ? contact_with_hub(ends) : contact_with_peers(ends);
   }
@@ -78,6 +85,14 @@ class Process {
   void refresh_keys(bool anyway = false) {
     if (const std::string fault = keys_.refresh(anyway); !fault.empty())
       std::fprintf(stderr, "banyan-robot %d: %s\n", options_.id, printable(fault).c_str());
+  }
+
+  void tell_fault() {
+    if (driver_->fault() == told_fault_) return;
+    told_fault_ = driver_->fault();
+    std::fprintf(stderr, "banyan-robot %d: %s\n", options_.id,
+                 told_fault_.empty() ? "its base is all right again"
+                                     : printable(told_fault_ + "; it is told to stand still").c_str());
   }
 
   void hear() {
@@ -121,6 +136,7 @@ class Process {
   double next_step_s_;
   double stopped_s_ = -1.0;
   std::uint32_t dropped_ = 0;
+  std::string told_fault_;
 };
 
 }  // namespace
