@@ -20,19 +20,19 @@ constexpr std::uint8_t type_onboard_controller = 18, autopilot_invalid = 8, stat
 // POSITION_TARGET_TYPEMASK: ignore x, y, z; accelerations; yaw.
 constexpr std::uint16_t velocity_and_yaw_rate = 0x007 | 0x1C0 | 0x400;
 
-struct Definition {
+struct MavlinkDefinition {
   std::uint32_t id;
   std::uint8_t crc_extra;
   std::uint8_t length;  // without extensions, as version 1 has it
 };
-constexpr Definition heartbeat{0, 50, 9}, attitude{30, 39, 28}, local_position_ned{32, 185, 28},
+constexpr MavlinkDefinition heartbeat{0, 50, 9}, attitude{30, 39, 28}, local_position_ned{32, 185, 28},
     gps_global_origin{49, 39, 12}, set_position_target{84, 143, 53}, ekf_status_report{193, 71, 22},
     estimator_status{230, 163, 42}, home_position{242, 104, 52}, odometry{331, 91, 230};
 constexpr std::array heard{heartbeat,         attitude,         local_position_ned, gps_global_origin,
                            ekf_status_report, estimator_status, home_position,      odometry};
 
 // Where a packet lies in the bytes that begin with it.
-struct Layout {
+struct PacketLayout {
   std::size_t header = 0, payload = 0, signature = 0;
   std::uint32_t id = 0;
   std::uint8_t system = 0, component = 0;
@@ -41,9 +41,9 @@ struct Layout {
 };
 
 // Nothing if the header is not complete.
-std::optional<Layout> layout_of(ByteView bytes) noexcept {
+std::optional<PacketLayout> layout_of(ByteView bytes) noexcept {
   const bool is_v2 = bytes[0] == start_v2;
-  Layout layout;
+  PacketLayout layout;
   layout.header = is_v2 ? header_v2 : header_v1;
   if (bytes.size() < layout.header) return std::nullopt;
   layout.payload = bytes[1];
@@ -59,7 +59,7 @@ std::optional<Layout> layout_of(ByteView bytes) noexcept {
   return layout;
 }
 
-bool is_intact(ByteView packet, const Layout& layout, const Definition& definition) noexcept {
+bool is_intact(ByteView packet, const PacketLayout& layout, const MavlinkDefinition& definition) noexcept {
   const std::size_t end = layout.header + layout.payload;
   const std::array extra{definition.crc_extra};
   const std::uint16_t crc = mavlink_crc(extra, mavlink_crc(packet.subspan(1, end - 1)));
@@ -67,9 +67,9 @@ bool is_intact(ByteView packet, const Layout& layout, const Definition& definiti
 }
 
 // Reads the payload field by field; zeros that were left out read as zeros.
-class Fields {
+class PayloadReader {
  public:
-  explicit Fields(ByteView payload) noexcept { std::copy_n(payload.begin(), payload.size(), bytes_.begin()); }
+  explicit PayloadReader(ByteView payload) noexcept { std::copy_n(payload.begin(), payload.size(), bytes_.begin()); }
   void skip(std::size_t bytes) noexcept { static_cast<void>(reader_.take(bytes)); }
   template <std::integral T> [[nodiscard]] T number() noexcept { return reader_.take<T>(); }
   [[nodiscard]] float real() noexcept {
@@ -91,21 +91,21 @@ class Fields {
 
 constexpr float largest_angle_rad = 1e4F;  // beyond, a turn would not be exact (trig.hpp)
 
-std::optional<MavlinkMessage> attitude_of(Fields& fields) noexcept {
+std::optional<MavlinkMessage> attitude_of(PayloadReader& fields) noexcept {
   fields.skip(12);  // time, roll, pitch
   const float yaw = fields.real();
   if (!fields.is_finite() || std::fabs(yaw) > largest_angle_rad) return std::nullopt;
   return MavlinkAttitude{yaw};
 }
 
-std::optional<MavlinkMessage> position_of(Fields& fields) noexcept {
+std::optional<MavlinkMessage> position_of(PayloadReader& fields) noexcept {
   fields.skip(4);
   const MavlinkPosition position = fields.position();
   if (!fields.is_finite()) return std::nullopt;
   return position;
 }
 
-std::optional<MavlinkMessage> odometry_of(Fields& fields) noexcept {
+std::optional<MavlinkMessage> odometry_of(PayloadReader& fields) noexcept {
   fields.skip(8);
   MavlinkOdometry said{fields.position()};
   const float w = fields.real(), x = fields.real(), y = fields.real(), z = fields.real();
@@ -118,12 +118,12 @@ std::optional<MavlinkMessage> odometry_of(Fields& fields) noexcept {
   return said;
 }
 
-MavlinkMessage estimator_of(Fields& fields, std::size_t before) noexcept {
+MavlinkMessage estimator_of(PayloadReader& fields, std::size_t before) noexcept {
   fields.skip(before);
   return MavlinkEstimator{fields.number<std::uint16_t>()};
 }
 
-std::optional<MavlinkMessage> reference_of(Fields& fields, bool is_origin) noexcept {
+std::optional<MavlinkMessage> reference_of(PayloadReader& fields, bool is_origin) noexcept {
   constexpr double degrees = 1e-7;
   MavlinkReference reference{is_origin};
   reference.latitude_deg = degrees * fields.number<std::int32_t>();
@@ -136,14 +136,14 @@ std::optional<MavlinkMessage> reference_of(Fields& fields, bool is_origin) noexc
   return reference;
 }
 
-MavlinkMessage heartbeat_of(Fields& fields) noexcept {
+MavlinkMessage heartbeat_of(PayloadReader& fields) noexcept {
   fields.skip(4);
   const auto type = fields.number<std::uint8_t>();
   return MavlinkHeartbeat{type, fields.number<std::uint8_t>()};
 }
 
 std::optional<MavlinkMessage> message_of(std::uint32_t id, ByteView payload) noexcept {
-  Fields fields(payload);
+  PayloadReader fields(payload);
   switch (id) {
     case heartbeat.id: return heartbeat_of(fields);
     case attitude.id: return attitude_of(fields);
@@ -156,7 +156,7 @@ std::optional<MavlinkMessage> message_of(std::uint32_t id, ByteView payload) noe
   }
 }
 
-Bytes packet_of(const Definition& definition, Bytes payload, const MavlinkSender& sender) {
+Bytes packet_of(const MavlinkDefinition& definition, Bytes payload, const MavlinkSender& sender) {
   while (payload.size() > 1 && payload.back() == 0) payload.pop_back();
   Bytes packet;
   DatagramWriter writer(packet);
@@ -203,7 +203,7 @@ std::optional<MavlinkWord> MavlinkReader::next() {
     const auto layout = layout_of(left);
     if (!layout || left.size() < layout->size()) return std::nullopt;
     const auto* const known =
-        std::find_if(heard.begin(), heard.end(), [&](const Definition& one) { return one.id == layout->id; });
+        std::find_if(heard.begin(), heard.end(), [&](const MavlinkDefinition& one) { return one.id == layout->id; });
     const bool is_read = layout->is_known_form && known != heard.end();
     if (is_read && (!is_intact(left, *layout, *known) || (left[0] == start_v1 && layout->payload < known->length))) {
       ++damaged_;

@@ -62,6 +62,8 @@ class MavlinkWire {
     // A vehicle that does not read stops by itself.
     static_cast<void>(::write(stream_, packet.data(), packet.size()));
   }
+  // Whether there is somebody at the other end before it has said anything.
+  [[nodiscard]] bool is_stream() const noexcept { return !socket_; }
   [[nodiscard]] int descriptor() const noexcept { return socket_ ? socket_->descriptor() : stream_; }
   [[nodiscard]] bool lost() const noexcept { return lost_; }
 
@@ -101,7 +103,9 @@ class MavlinkBase final : public Driver {
     autopilot_.refresh(now_s);
     if (now_s >= next_heartbeat_s_) {
       next_heartbeat_s_ = now_s + heartbeat_every_s;
-      say(mavlink_heartbeat(sender()));
+      const Bytes heartbeat = mavlink_heartbeat(sender());
+      say(heartbeat);
+      if (autopilot_.sources().empty() && wire_.is_stream()) wire_.send(heartbeat, {});  // some wait for it
     }
     if (now_s >= next_set_point_s_) steer();
     if (tracker_ && now_s >= next_pose_s_) tell_place();
