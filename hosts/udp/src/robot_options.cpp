@@ -61,6 +61,9 @@ void add_options(CLI::App& app, RobotOptions& o) {
   add_text(app, "--poses", "ADDRESS:PORT", o.poses,
            "the hub's --poses, which is told where it is; required with mavlink: unless --home is tracker");
   add_text(app, "--algorithm", "NAME", o.algorithm, "default convoy");
+  add_number(app, "--max-payload", o.max_payload, 1, 65535,
+             "bytes that a packet of its radio carries: an algorithm with longer messages is refused; default any",
+             true);
   add_text(app, "--reading", "NAME", o.setup.reading, "corrected, the default, or literal");
   add_number(app, "--range", platform.communication_range_m, 1e-3, 1e4, "C, how far the radio reaches, m; default 2");
   add_number(app, "--tick", platform.tick_s, 1e-3, 10.0, "control period, s; default 0.1");

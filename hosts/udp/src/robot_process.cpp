@@ -41,6 +41,9 @@ const Algorithm& known_algorithm(const RobotOptions& options, const AlgorithmLis
       throw OptionError("--set " + key + " is unknown");
   }
   if (const std::string fault = algorithm->fault(options.setup); !fault.empty()) throw OptionError(fault);
+  if (options.max_payload > 0)
+    if (const auto fault = payload_fault(*algorithm, options.setup, options.max_payload, algorithms); !fault.empty())
+      throw OptionError("--max-payload: " + fault);
   return *algorithm;
 }
 
@@ -121,7 +124,7 @@ class Process {
       return contact_->greet(now_s);
     }
     Status status = robot_.step(now_s, driver_->pose_at(now_s), driver_->obstacles());
-    status.dropped = dropped_;
+    status.dropped = dropped_ + robot_.refused();
     driver_->drive(status.velocity);
     contact_->tell(status);
   }

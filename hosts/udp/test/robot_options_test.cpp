@@ -24,7 +24,7 @@ std::string fault(const std::vector<std::string>& arguments) {
 TEST(RobotOptions, WhatIsWrittenIsReadAgain) {
   // Option and value side by side.
   // clang-format off
-  const auto arguments = with({"--base", "tcp:1.2.3.4:5", "--algorithm", "outwards", "--reading", "literal",
+  const auto arguments = with({"--base", "tcp:1.2.3.4:5", "--algorithm", "outwards", "--max-payload", "61", "--reading", "literal",
                                "--range", "1.7", "--tick", "0.05", "--wheel-limit", "0.13",
                                "--wheel-distance", "0.3", "--radius", "0.09", "--arrival", "0.1",
                                "--link-redundancy", "2", "--holonomic", "--no-line-of-sight", "--set",
