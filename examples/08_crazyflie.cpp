@@ -16,7 +16,7 @@ struct Said {
   std::uint8_t message[wire_size<caravan::Message>()];
 };
 static_assert(sizeof(Said) <= 57, "a packet has 60 bytes, of which 57 are safe");
-static QueueHandle_t inbox;
+static QueueHandle_t inbox;  // NOLINT(*-avoid-non-const-global-variables): for the radio's callback
 
 extern "C" void appMain() {
   const auto id = static_cast<RobotId>(configblockGetRadioAddress() & 0xFF);

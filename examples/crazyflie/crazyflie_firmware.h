@@ -20,7 +20,7 @@ extern "C" {
 extern "C" {
 void appMain();
 
-#define P2P_MAX_DATA_SIZE 60
+constexpr int P2P_MAX_DATA_SIZE = 60;
 struct P2PPacket {
   std::uint8_t size, rssi, port, data[P2P_MAX_DATA_SIZE];
 };
@@ -45,12 +45,12 @@ struct setpoint_t {
     stab_mode_t x, y, z, roll, pitch, yaw, quat;
   } mode;
 };
-#define COMMANDER_PRIORITY_EXTRX 3
+constexpr int COMMANDER_PRIORITY_EXTRX = 3;
 void commanderSetSetpoint(setpoint_t* setpoint, int priority);
 
 using TickType_t = std::uint32_t;
 using QueueHandle_t = void*;
-#define M2T(milliseconds) ((TickType_t)(milliseconds))
+constexpr TickType_t M2T(TickType_t milliseconds) { return milliseconds; }
 QueueHandle_t xQueueCreate(std::uint32_t length, std::uint32_t item_bytes);
 int xQueueSend(QueueHandle_t queue, const void* item, TickType_t wait);
 int xQueueReceive(QueueHandle_t queue, void* item, TickType_t wait);

@@ -29,6 +29,8 @@ struct Place {
 };
 float between(Place a, Place b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
+// The app's calls carry nothing that could hold this.
+// NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables)
 std::array<std::array<int, 2>, robots> radio{}, report{};  // of each robot: where it receives, where others send
 int self = 0;
 TickType_t now_ms = 0;
@@ -39,6 +41,7 @@ void (*heard)(P2PPacket*) = nullptr;
 std::deque<std::vector<std::uint8_t>> queue;
 std::size_t queue_length = 0, item_bytes = 0;
 unsigned dice = 1;
+// NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 
 unsigned throw_dice() { return (dice = dice * 1664525U + 1013904223U) >> 16U; }
 
@@ -122,7 +125,7 @@ int main() {
       if (::socketpair(AF_UNIX, SOCK_DGRAM, 0, pair.data()) != 0) return 1;
   for (self = 0; self < robots; ++self)
     if (::fork() == 0) {
-      place = {0.4F * static_cast<float>(self % 3), 0.4F * static_cast<float>(self / 3)};
+      place = {0.4F * static_cast<float>(self % 3), 0.4F * static_cast<float>(self >= 3 ? 1 : 0)};
       yaw_deg = 50.0F * static_cast<float>(self);  // which nobody can tell from outside
       dice = static_cast<unsigned>(self + 1);
       appMain();
