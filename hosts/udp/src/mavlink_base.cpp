@@ -17,7 +17,7 @@ namespace banyan::udp {
 namespace {
 
 constexpr std::string_view mavlink_prefix = "mavlink:", udp_prefix = "udp:", tcp_prefix = "tcp:";
-constexpr double heartbeat_every_s = 1.0, set_point_every_s = 0.2, pose_every_s = 0.05;
+constexpr double heartbeat_every_s = 1.0, set_point_every_s = 0.15, pose_every_s = 0.05;
 constexpr std::uint8_t onboard_computer = 191;  // MAV_COMP_ID_ONBOARD_COMPUTER
 
 // Bytes from and to vehicles: datagrams, or a stream.

@@ -29,8 +29,8 @@ void catch_signals() {
   ::signal(SIGPIPE, SIG_IGN);  // a base that goes away is noticed when it is read
 }
 
-constexpr double longest_wait_s = 0.1;  // however long a step is, the base may have something to do
-constexpr double linger_s = 0.5;        // after a stop: to answer it if it is repeated because the answer was lost
+constexpr double longest_wait_s = 0.05;  // however long a step is, the base may have something to do
+constexpr double linger_s = 0.5;         // after a stop: to answer it if it is repeated because the answer was lost
 
 const Algorithm& known_algorithm(const RobotOptions& options, const AlgorithmList& algorithms) {
   const Algorithm* algorithm = algorithms.find(options.algorithm);

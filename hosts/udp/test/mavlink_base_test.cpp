@@ -99,7 +99,7 @@ TEST(MavlinkOverUdp, SetPointsGoToTheVehicleThatWasHeardAtLeastFiveTimesASecond)
       ++((*packet)[7] == 84 ? set_points : heartbeats);
     }
   }
-  EXPECT_GE(set_points, 45);
+  EXPECT_GE(set_points, 49);
   EXPECT_GE(heartbeats, 9);
   EXPECT_TRUE(from == base_address);
   EXPECT_NE(base->fault().find("LOCAL_POSITION_NED"), std::string::npos) << base->fault();
