@@ -152,6 +152,39 @@ TEST_P(EverySwarm, RobotsWithTheLargestIdsAreHeard) {
   }
 }
 
+// A packet of Crazyflies' own radio carries 60 bytes, of which their app may want a few.
+TEST_P(EverySwarm, TravelsInASmallPacketOrIsRefusedAtTheStart) {
+  constexpr std::size_t limit = 57;
+  const Algorithm& algorithm = *GetParam().algorithm;
+  banyan::Setup setup;
+  setup.reading = GetParam().reading;
+  Row r = row();
+  for (int t = 0; t < 20; ++t) r.tick();
+  std::array<std::uint8_t, largest_wire> said{};
+  const std::size_t size = r.swarm->send(1, said);
+  EXPECT_EQ(message_bytes(algorithm, setup), size);
+  const std::string fault = payload_fault(algorithm, setup, limit, algorithms());
+  EXPECT_EQ(fault.empty(), size <= limit) << fault;
+  if (size > limit) {
+    EXPECT_TRUE(fault.find("these fit: caravan (40), link-consensus (46)") != std::string::npos) << fault;
+    return;
+  }
+  std::array<std::uint8_t, limit> packet{};
+  std::copy_n(said.begin(), size, packet.begin());
+  EXPECT_TRUE(r.swarm->receive(std::span(packet).first(size)));
+  for (std::size_t cut = 0; cut < size; ++cut)
+    EXPECT_FALSE(r.swarm->receive(std::span(packet).first(cut))) << "cut to " << cut << " bytes";
+  EXPECT_FALSE(r.swarm->receive(packet)) << "with what was behind it in the packet";
+}
+
+TEST(SmallPackets, ConvoyOnBatteriesSaysMore) {
+  banyan::Setup setup;
+  EXPECT_EQ(payload_fault(convoy(), setup, 96, algorithms()), "");
+  setup.platform.battery = true;
+  EXPECT_EQ(payload_fault(convoy(), setup, 96, AlgorithmList{&convoy()}),
+            "a message of convoy has 104 bytes, and the radio carries 96; no algorithm has a shorter one");
+}
+
 TEST_P(EverySwarm, RangesInAnyOrderAreOneTick) {
   Row whole = row();
   Row parts = row();

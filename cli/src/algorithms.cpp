@@ -44,7 +44,9 @@ std::string range_text(const ParameterInfo& info) {
 }
 
 nlohmann::ordered_json json_of(const Algorithm& algorithm) {
-  nlohmann::ordered_json entry = {{"name", algorithm.name()}, {"summary", algorithm.summary()}};
+  nlohmann::ordered_json entry = {{"name", algorithm.name()},
+                                  {"summary", algorithm.summary()},
+                                  {"message_bytes", message_bytes(algorithm, Setup{})}};
   auto& list = entry["parameters"] = nlohmann::ordered_json::array();
   const auto rows = algorithm.parameters();
   const auto defaults = algorithm.values(Setup{});
@@ -142,6 +144,10 @@ int algorithms_command(const AlgorithmsOptions& options) {
   std::string text = "Choose one with mission.algorithm = \"...\" in a scenario, or --set mission.algorithm=...\n\n";
   for (const Algorithm* algorithm : list)
     text += format("  %-14s ", std::string(algorithm->name()).c_str()) + std::string(algorithm->summary()) + "\n";
+  std::string sizes;
+  for (const Algorithm* algorithm : list)
+    append_name(sizes, std::string(algorithm->name()) + " " + std::to_string(message_bytes(*algorithm, Setup{})));
+  text += "\nBytes of a message: " + sizes + "\n";
   text +=
       "\nTwo readings of the paper, by mission.reading: corrected (default) closes its gaps, literal is as printed.\n"
       "Change a parameter by mission.parameters.<parameter>. Defaults:\n\n";

@@ -606,6 +606,7 @@ TEST_F(Program, AlgorithmsAreListedWithTheirParameters) {
   for (const char* part : {"outwards", "inwards", "target_gain", "tau", "Table I", "the mission's target tolerance"})
     EXPECT_TRUE(has(text, part)) << part;
 
+  EXPECT_TRUE(has(text, "Bytes of a message: outwards 61, inwards 61, convoy 96, caravan 40, ")) << text;
   const auto list = json::parse(run({"algorithms", "--json"}).out);
   ASSERT_GE(list.size(), 2U);
   std::map<std::string, double> tau{{"outwards", 0.49}, {"inwards", 0.2539}, {"convoy", 1.0}};  // Table I, and ours

@@ -1,25 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/hosts/udp/line_base.hpp"
 
-#include <fcntl.h>
-#include <netinet/tcp.h>
-#include <sys/socket.h>
-#include <termios.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 
 #include "banyan/hosts/udp/envelope.hpp"
-#include "banyan/hosts/udp/socket.hpp"
 
 namespace banyan::udp {
 namespace {
 
 constexpr std::size_t longest_line = 4096;
-constexpr double remembered_s = 1.0;
 
 std::string_view take_word(std::string_view& line) noexcept {
   const std::size_t end = std::min(line.find(' '), line.size());
@@ -79,37 +72,6 @@ std::string in_decimals(float value) {
   return {text.data(), end};
 }
 
-int connect_to(const std::string& name) {
-  const Address address = parse_address(name);
-  const int descriptor = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (descriptor < 0 ||
-      ::connect(descriptor, reinterpret_cast<const sockaddr*>(&address.raw), sizeof address.raw) != 0) {
-    const int error = errno;
-    if (descriptor >= 0) ::close(descriptor);
-    throw BaseError("tcp:" + name + ": " + std::strerror(error));
-  }
-  const int on = 1;
-  static_cast<void>(::setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on));
-  static_cast<void>(::fcntl(descriptor, F_SETFL, O_NONBLOCK));
-  return descriptor;
-}
-
-int open_serial(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-  if (descriptor < 0) throw BaseError(path + ": " + std::strerror(errno));
-  termios settings{};
-  if (::tcgetattr(descriptor, &settings) == 0) {
-    ::cfmakeraw(&settings);
-    ::cfsetspeed(&settings, B115200);
-    settings.c_cflag |= CLOCAL | CREAD;
-    settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);  // whoever used it before may have set them
-    if (::tcsetattr(descriptor, TCSANOW, &settings) == 0) return descriptor;
-  }
-  const int error = errno;
-  ::close(descriptor);
-  throw BaseError(path + ": is no serial device: " + std::strerror(error));
-}
-
 }  // namespace
 
 std::optional<BaseLine> parse_base_line(std::string_view line) {
@@ -144,15 +106,10 @@ std::string base_pose_line(const OdometricPose& pose) {
 
 LineBase::~LineBase() { ::close(descriptor_); }
 
-void LineBase::take(const OdometricPose& pose, double now_s) {
-  poses_.push_back({now_s, pose});
-  while (poses_.size() > 1 && poses_.front().s < now_s - remembered_s) poses_.pop_front();
-}
-
 void LineBase::take(std::string_view line, double now_s) {
   const auto said = parse_base_line(line);
   if (!said) return;
-  if (const auto* pose = std::get_if<OdometricPose>(&*said)) take(*pose, now_s);
+  if (const auto* pose = std::get_if<OdometricPose>(&*said)) poses_.take(*pose, now_s);
   if (const auto* seen = std::get_if<Seen>(&*said)) seen_ = *seen;
   if (const auto* near = std::get_if<Near>(&*said))
     for (const Near::Robot& robot : near->robots) near_[robot.id] = {robot.position, now_s};
@@ -184,28 +141,14 @@ void LineBase::drive(const Velocity& velocity) {
   static_cast<void>(::write(descriptor_, line.data(), line.size()));
 }
 
-std::optional<OdometricPose> LineBase::pose_at(double moment_s) const {
-  OdometricPose pose = poses_.empty() ? OdometricPose{} : poses_.front().pose;
-  for (const Moment& moment : poses_)
-    if (moment.s <= moment_s) pose = moment.pose;
-  return pose;
-}
-
 std::optional<Measured> LineBase::neighbour(RobotId robot) const {
   const auto found = near_.find(robot);
   if (found == near_.end()) return std::nullopt;
   return found->second;
 }
 
-std::optional<double> LineBase::last_pose_s() const {
-  if (poses_.empty()) return std::nullopt;
-  return poses_.back().s;
-}
-
 std::unique_ptr<Driver> open_line_base(const std::string& name) {
-  try {
-    return std::make_unique<LineBase>(name.starts_with("tcp:") ? connect_to(name.substr(4)) : open_serial(name));
-  } catch (const SocketError& error) { throw BaseError(error.what()); }
+  return std::make_unique<LineBase>(name.starts_with("tcp:") ? connect_tcp(name.substr(4)) : open_serial(name));
 }
 
 }  // namespace banyan::udp

@@ -55,6 +55,10 @@ void UdpRobot::take(const HeardBundle& heard, const std::optional<OdometricPose>
   follow(heard.tick, heard.odometry);
   const OdometricPose& pose = at ? *at : heard.odometry;
   for (const Hearing& packet : heard.packets) {
+    if (packet.message.empty()) {  // the algorithm need not look at it
+      ++refused_;
+      continue;
+    }
     const auto [place, is_new] = known_.try_emplace(packet.sender);
     if (!is_new && heard.tick <= place->second.tick) continue;
     place->second = {heard.tick, pose.outside(packet.position), packet.message, place->second.given_s};
@@ -76,6 +80,7 @@ void UdpRobot::collect(const OdometricPose& pose, double now_s) {
     if (known.message.empty()) continue;
     if (const auto place = swarm_->receive(known.message))
       packets_.push_back({.sender = *place, .age_ticks = 1, .position = pose.inside(known.position), .age_s = 0.0F});
+    else ++refused_;
     known.message.clear();
     known.given_s = now_s;
   }

@@ -3,6 +3,7 @@
 
 #include "banyan/hosts/udp/command_line.hpp"
 #include "banyan/hosts/udp/envelope.hpp"
+#include "banyan/hosts/udp/mavlink_base.hpp"
 
 namespace banyan::udp {
 namespace {
@@ -48,8 +49,21 @@ void add_options(CLI::App& app, RobotOptions& o) {
   add_flag(app, "--worker", o.worker, true, "with --peers: it will be sent to a target");
   add_text(app, "--key", "FILE", o.key_file, "the fleet's keys; required");
   add_text(app, "--base", "BASE", o.base,
-           "what it drives on: tcp:ADDRESS:PORT or a serial device; default the hub's simulated wheels");
+           "what it drives on: tcp:ADDRESS:PORT or a serial device; mavlink:udp:ADDRESS:PORT, mavlink:tcp:ADDRESS:PORT "
+           "or mavlink:DEVICE[@BAUD] for an autopilot; default the hub's simulated wheels");
+  add_number(app, "--system", o.system, 1, 255, "MAVLink system id of its autopilot; default the robot's id plus 1",
+             true);
+  add_number(app, "--height", o.height_m, 0.0, 1e4,
+             "height that its autopilot is to keep above the origin of its local frame, m; required with mavlink:");
+  add_text(app, "--home", "HOME", o.home,
+           "where that origin is in the scenario: a file with lines ROBOT EAST NORTH, in m; LATITUDE,LONGITUDE of the "
+           "scenario's origin; or tracker, if one sees it; required with mavlink:");
+  add_text(app, "--poses", "ADDRESS:PORT", o.poses,
+           "the hub's --poses, which is told where it is; required with mavlink: unless --home is tracker");
   add_text(app, "--algorithm", "NAME", o.algorithm, "default convoy");
+  add_number(app, "--max-payload", o.max_payload, 1, 65535,
+             "bytes that a packet of its radio carries: an algorithm with longer messages is refused; default any",
+             true);
   add_text(app, "--reading", "NAME", o.setup.reading, "corrected, the default, or literal");
   add_number(app, "--range", platform.communication_range_m, 1e-3, 1e4, "C, how far the radio reaches, m; default 2");
   add_number(app, "--tick", platform.tick_s, 1e-3, 10.0, "control period, s; default 0.1");
@@ -87,6 +101,30 @@ void check_who_guides(const RobotOptions& options) {
   if (options.listen.empty()) throw OptionError("--peers needs --listen");
 }
 
+void check_autopilot(const RobotOptions& options) {
+  if (!is_mavlink(options.base)) {
+    if (options.system > 0 || options.height_m >= 0.0 || !options.home.empty() || !options.poses.empty())
+      throw OptionError("--system, --height, --home and --poses need an autopilot: --base mavlink:...");
+    return;
+  }
+  if (!options.peers.empty())
+    throw OptionError(
+        "--peers needs a base that measures where other robots are; an autopilot does not: fly with a hub");
+  if (options.system == 0 && options.id >= 255)
+    throw OptionError("--system is missing: without it, it is the id plus 1, and MAVLink's ids end at 255");
+  if (options.height_m < 0.0)
+    throw OptionError("--height is missing: what height its autopilot is to keep above its origin, m");
+  if (options.home.empty())
+    throw OptionError(
+        "--home is missing: where the local frame of its autopilot begins; a file with lines ROBOT EAST NORTH, "
+        "LATITUDE,LONGITUDE of the scenario's origin, or tracker");
+  if (options.home == "tracker" && !options.poses.empty())
+    throw OptionError("--home tracker and --poses exclude each other: either a tracker tells the hub, or the robot");
+  if (options.home != "tracker" && options.poses.empty())
+    throw OptionError(
+        "--poses is missing: ADDRESS:PORT of the hub's --poses; or --home tracker, if one sees the robot");
+}
+
 }  // namespace
 
 std::string robot_usage() {
@@ -103,6 +141,7 @@ RobotOptions parse_robot_options(std::span<const std::string> arguments) {
   read_arguments(app, arguments);
   if (parsed.id == nobody) throw OptionError("--id is missing");
   check_who_guides(parsed);
+  check_autopilot(parsed);
   if (parsed.key_file.empty()) throw OptionError("--key is missing");
   return parsed;
 }

@@ -3,12 +3,14 @@
 
 #include <signal.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 
 #include "banyan/controller/core/printable.hpp"
 #include "banyan/hosts/udp/contact.hpp"
 #include "banyan/hosts/udp/line_base.hpp"
+#include "banyan/hosts/udp/mavlink_base.hpp"
 
 namespace banyan::udp {
 namespace {
@@ -27,7 +29,8 @@ void catch_signals() {
   ::signal(SIGPIPE, SIG_IGN);  // a base that goes away is noticed when it is read
 }
 
-constexpr double linger_s = 0.5;  // after a stop: to answer it if it is repeated because the answer was lost
+constexpr double longest_wait_s = 0.05;  // however long a step is, the base may have something to do
+constexpr double linger_s = 0.5;         // after a stop: to answer it if it is repeated because the answer was lost
 
 const Algorithm& known_algorithm(const RobotOptions& options, const AlgorithmList& algorithms) {
   const Algorithm* algorithm = algorithms.find(options.algorithm);
@@ -38,6 +41,9 @@ const Algorithm& known_algorithm(const RobotOptions& options, const AlgorithmLis
       throw OptionError("--set " + key + " is unknown");
   }
   if (const std::string fault = algorithm->fault(options.setup); !fault.empty()) throw OptionError(fault);
+  if (options.max_payload > 0)
+    if (const auto fault = payload_fault(*algorithm, options.setup, options.max_payload, algorithms); !fault.empty())
+      throw OptionError("--max-payload: " + fault);
   return *algorithm;
 }
 
@@ -47,8 +53,7 @@ class Process {
       : options_(options),
         keys_(options.key_file),
         socket_(options.listen.empty() ? Address{} : parse_address(options.listen)),
-        driver_(options.base.empty() ? std::unique_ptr<Driver>(std::make_unique<SimulatedWheels>())
-                                     : open_line_base(options.base)),
+        driver_(make_driver(options)),
         robot_(algorithm, options.setup, options.id, options.stop_after_s),
         contact_(make_contact({options_, socket_, *driver_, robot_, keys_.keys(), refusals_})),
         clock_(options.speed),
@@ -63,9 +68,10 @@ class Process {
     const std::array<int, 2> descriptors{socket_.descriptor(), driver_->descriptor()};
     while (caught == 0 && !driver_->lost() &&
            (stopped_s_ < 0.0 || clock_.now_s() < stopped_s_ + linger_s * options_.speed)) {
-      clock_.wait(descriptors, next_step_s_);
+      clock_.wait(descriptors, std::min(next_step_s_, clock_.now_s() + longest_wait_s));
       if (reread.exchange(false)) refresh_keys(true);
       driver_->listen(clock_.now_s());
+      tell_fault();
       hear();
       if (clock_.now_s() >= next_step_s_) act(clock_.now_s());
     }
@@ -73,6 +79,10 @@ class Process {
   }
 
  private:
+  static std::unique_ptr<Driver> make_driver(const RobotOptions& options) {
+    if (options.base.empty()) return std::make_unique<SimulatedWheels>();
+    return is_mavlink(options.base) ? open_mavlink_base(options) : open_line_base(options.base);
+  }
   static std::unique_ptr<Contact> make_contact(const ContactEnds& ends) {
     return ends.options.peers.empty() ? contact_with_hub(ends) : contact_with_peers(ends);
   }
@@ -83,6 +93,12 @@ class Process {
 
   void say(const std::string& text) const {
     std::fprintf(stderr, "banyan-robot %d: %s\n", options_.id, printable(text).c_str());
+  }
+
+  void tell_fault() {
+    if (driver_->fault() == told_fault_) return;
+    told_fault_ = driver_->fault();
+    say(told_fault_.empty() ? "its base is all right again" : told_fault_ + "; it is told to stand still");
   }
 
   void hear() {
@@ -115,7 +131,7 @@ class Process {
       return contact_->greet(now_s);
     }
     Status status = robot_.step(now_s, driver_->pose_at(now_s), driver_->obstacles());
-    status.dropped = dropped_;
+    status.dropped = dropped_ + robot_.refused();
     driver_->drive(status.velocity);
     contact_->tell(status);
   }
@@ -131,6 +147,7 @@ class Process {
   double next_step_s_;
   double stopped_s_ = -1.0;
   std::uint32_t dropped_ = 0;
+  std::string told_fault_;
 };
 
 }  // namespace

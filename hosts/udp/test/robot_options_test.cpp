@@ -24,7 +24,7 @@ std::string fault(const std::vector<std::string>& arguments) {
 TEST(RobotOptions, WhatIsWrittenIsReadAgain) {
   // Option and value side by side.
   // clang-format off
-  const auto arguments = with({"--base", "tcp:1.2.3.4:5", "--algorithm", "outwards", "--reading", "literal",
+  const auto arguments = with({"--base", "tcp:1.2.3.4:5", "--algorithm", "outwards", "--max-payload", "61", "--reading", "literal",
                                "--range", "1.7", "--tick", "0.05", "--wheel-limit", "0.13",
                                "--wheel-distance", "0.3", "--radius", "0.09", "--arrival", "0.1",
                                "--link-redundancy", "2", "--holonomic", "--no-line-of-sight", "--set",
@@ -59,6 +59,31 @@ TEST(RobotOptions, WithoutAHub) {
   EXPECT_EQ(without("--listen"), "--peers needs --listen");
   EXPECT_EQ(fault(with({"--peers", "10.0.0.255:4600"})), "--hub and --peers exclude each other");
   EXPECT_EQ(fault(with({"--root"})), "--listen, --root and --worker need --peers: the hub says how robots begin");
+}
+
+TEST(RobotOptions, WithAnAutopilot) {
+  const auto arguments = with({"--base", "mavlink:udp:127.0.0.1:14540", "--system", "9", "--height", "12.5", "--home",
+                               "homes.txt", "--poses", "10.0.0.1:4700"});
+  EXPECT_EQ(to_arguments(parse_robot_options(arguments)), arguments);
+  EXPECT_EQ(parse_robot_options(arguments).mavlink_system(), 9);
+  const auto flown = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"--base", "mavlink:/dev/ttyACM0"});
+    return fault(with(more));
+  };
+  EXPECT_EQ(flown({"--height", "0", "--home", "tracker"}), "");
+  EXPECT_TRUE(flown({"--home", "tracker"}).starts_with("--height is missing"));
+  EXPECT_TRUE(flown({"--height", "5"}).starts_with("--home is missing"));
+  EXPECT_TRUE(flown({"--height", "5", "--home", "homes.txt"}).starts_with("--poses is missing"));
+  EXPECT_TRUE(flown({"--height", "5", "--home", "tracker", "--poses", "10.0.0.1:4700"})
+                  .starts_with("--home tracker and --poses exclude each other"));
+  EXPECT_TRUE(
+      fault(with({"--base", "tcp:1.2.3.4:5", "--height", "5"})).ends_with("need an autopilot: --base mavlink:..."));
+  EXPECT_TRUE(fault({"--id", "3", "--peers", "10.0.0.255:4600", "--listen", "0.0.0.0:4600", "--key", "k", "--base",
+                     "mavlink:/dev/ttyACM0", "--height", "5", "--home", "tracker"})
+                  .starts_with("--peers needs a base that measures where other robots are"));
+  EXPECT_TRUE(fault({"--id", "300", "--hub", "10.0.0.1:4600", "--key", "k", "--base", "mavlink:/dev/ttyACM0",
+                     "--height", "5", "--home", "tracker"})
+                  .starts_with("--system is missing"));
 }
 
 TEST(RobotOptions, WhatIsWrongIsSaid) {

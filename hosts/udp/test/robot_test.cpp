@@ -104,6 +104,20 @@ TEST_F(RobotAlone, BeginsAsTheHubSays) {
   EXPECT_FLOAT_EQ(status.velocity.turn_rad_s, 0.2F);
 }
 
+// Cut short on the way, or of an algorithm that another robot was started with by mistake.
+TEST_F(RobotAlone, CountsMessagesThatAreNone) {
+  robot_.take(frame(0), 10.0);
+  HeardBundle heard;
+  heard.tick = 1;
+  heard.packets = {{1, {1.0F, 0.0F}, {5}}, {2, {1.0F, 0.0F}, {}}, {3, {1.0F, 0.0F}, {5, 6}}, {4, {1.0F, 0.0F}, {0}}};
+  robot_.take(heard);
+  static_cast<void>(robot_.step(10.1));
+  EXPECT_EQ(given_.packets.size(), 1U);
+  EXPECT_EQ(robot_.refused(), 3U);
+  static_cast<void>(robot_.step(10.2));
+  EXPECT_EQ(robot_.refused(), 3U) << "each once";
+}
+
 TEST_F(RobotAlone, ThatHasStartedAgainIsNotTheFirstRoot) {
   SensorFrame first = frame(500);
   first.root = first.begun = true;

@@ -62,6 +62,12 @@ class Algorithm {
   ~Algorithm() = default;
 };
 
+// Bytes of each message that its robots send. The setup must have no fault.
+[[nodiscard]] inline std::size_t message_bytes(const Algorithm& algorithm, const Setup& setup) {
+  const Member alone{.id = 0, .root = true};
+  return algorithm.make(setup, std::span(&alone, 1))->message_bytes();
+}
+
 // The algorithms that a program has, in the order in which they are listed. The program hands its list
 // down: algorithms/ has the list of those that come with Banyan.
 class AlgorithmList {
@@ -106,5 +112,24 @@ class AlgorithmList {
   std::string_view usual_;
   std::vector<ParameterInfo> parameters_;
 };
+
+// Why a radio whose packets carry at most `limit` bytes is none for that algorithm, and for which of `others` it is; or
+// nothing. The setup must have no fault.
+[[nodiscard]] inline std::string payload_fault(const Algorithm& algorithm, const Setup& setup, std::size_t limit,
+                                               const AlgorithmList& others) {
+  const std::size_t bytes = message_bytes(algorithm, setup);
+  if (bytes <= limit) return {};
+  std::string fitting;
+  for (const Algorithm* other : others) {
+    Setup of_other = setup;
+    of_other.parameters.clear();  // which are of the algorithm that does not fit
+    if (!other->fault(of_other).empty()) continue;
+    if (const std::size_t size = message_bytes(*other, of_other); size <= limit)
+      fitting += (fitting.empty() ? "" : ", ") + std::string(other->name()) + " (" + std::to_string(size) + ")";
+  }
+  return "a message of " + std::string(algorithm.name()) + " has " + std::to_string(bytes) +
+         " bytes, and the radio carries " + std::to_string(limit) + "; " +
+         (fitting.empty() ? "no algorithm has a shorter one" : "these fit: " + fitting);
+}
 
 }  // namespace banyan

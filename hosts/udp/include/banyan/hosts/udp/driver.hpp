@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 
 #include "banyan/hosts/udp/messages.hpp"
 
@@ -33,9 +34,14 @@ class Driver {
   [[nodiscard]] virtual int descriptor() const noexcept = 0;  // that something to listen() to arrives on; -1: none
   // Nothing more will come: the robot stands and its program ends.
   [[nodiscard]] virtual bool lost() const noexcept = 0;
+  // Why it stands still whatever drive() says, in words; empty: it does not.
+  [[nodiscard]] virtual const std::string& fault() const noexcept { return nothing_; }
 
  protected:
   Driver() = default;
+
+ private:
+  std::string nothing_;
 };
 
 class SimulatedWheels final : public Driver {

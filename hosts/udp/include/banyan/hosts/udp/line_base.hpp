@@ -15,23 +15,18 @@
 // A base that hears nothing for half a second must stop by itself: the wire may break.
 #pragma once
 
-#include <deque>
 #include <map>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "banyan/hosts/udp/base_wire.hpp"
 #include "banyan/hosts/udp/driver.hpp"
+#include "banyan/hosts/udp/pose_history.hpp"
 
 namespace banyan::udp {
-
-class BaseError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 struct Seen {
   std::vector<Vec2> points;  // at most most_seen
@@ -64,26 +59,21 @@ class LineBase final : public Driver {
 
   void listen(double now_s) override;
   void drive(const Velocity& velocity) override;
-  [[nodiscard]] std::optional<OdometricPose> pose_at(double moment_s) const override;  // the origin before the first
+  [[nodiscard]] std::optional<OdometricPose> pose_at(double moment_s) const override { return poses_.at(moment_s); }
   [[nodiscard]] std::span<const Vec2> obstacles() const override { return seen_.points; }
   [[nodiscard]] std::optional<Measured> neighbour(RobotId robot) const override;
   [[nodiscard]] std::optional<Measured> target() const override { return target_; }
-  [[nodiscard]] std::optional<double> last_pose_s() const override;
+  [[nodiscard]] std::optional<double> last_pose_s() const override { return poses_.last_s(); }
   [[nodiscard]] int descriptor() const noexcept override { return descriptor_; }
   [[nodiscard]] bool lost() const noexcept override { return lost_; }
 
  private:
   void take(std::string_view line, double now_s);
-  void take(const OdometricPose& pose, double now_s);
 
-  struct Moment {
-    double s = 0.0;
-    OdometricPose pose;
-  };
   int descriptor_;
   bool lost_ = false;
-  std::string begun_;         // a line whose end has not come
-  std::deque<Moment> poses_;  // of the last second
+  std::string begun_;  // a line whose end has not come
+  PoseHistory poses_;
   Seen seen_;
   std::map<RobotId, Measured> near_;
   std::optional<Measured> target_;

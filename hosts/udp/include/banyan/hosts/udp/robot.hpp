@@ -33,6 +33,8 @@ class UdpRobot {
   // what it sees where a robot was heard is that robot, and no obstacle.
   [[nodiscard]] Status step(double now_s, const std::optional<OdometricPose>& pose = {},
                             std::span<const Vec2> seen = {});
+  // Messages of other robots that were none of this algorithm: cut short, too long, or of another one.
+  [[nodiscard]] std::uint32_t refused() const noexcept { return refused_; }
 
  private:
   struct Known {  // a packet that waits for the next step
@@ -68,6 +70,7 @@ class UdpRobot {
   std::uint32_t step_tick_ = 0;  // and the newest tick that it knew
   bool interrupted_ = false;     // it has been without guidance since
   std::uint8_t given_up_serial_ = 0;
+  std::uint32_t refused_ = 0;
   std::vector<Packet> packets_;
   std::vector<Vec2> obstacles_, seen_, neighbors_;
 };

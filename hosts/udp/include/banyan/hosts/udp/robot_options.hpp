@@ -22,10 +22,19 @@ struct RobotOptions {
   std::string key_file;
   std::string algorithm = "convoy";
   Setup setup;
-  std::string base;           // "": simulated wheels; tcp:ADDRESS:PORT or a serial device
-  double stop_after_s = 0.5;  // without a frame from the hub; without a hub, without a pose of its base
-  double delay_s = 0.0;       // from a measurement of the tracker to its arrival here; with a base only
-  double speed = 1.0;         // of its clock
+  std::size_t max_payload = 0;  // bytes of a message that its radio carries; 0: any
+  std::string base;             // "": simulated wheels; tcp:ADDRESS:PORT, a serial device or mavlink:... of these
+  double stop_after_s = 0.5;    // without a frame from the hub; without a hub, without a pose of its base
+  double delay_s = 0.0;         // from a measurement of the tracker to its arrival here; with a base only
+  double speed = 1.0;           // of its clock
+  // With an autopilot as its base (mavlink_base.hpp):
+  int system = 0;          // its MAVLink system id; 0: id + 1
+  double height_m = -1.0;  // to be kept; negative: not given
+  std::string home;        // where its local frame begins
+  std::string poses;       // ADDRESS:PORT of the hub's --poses, to be told where it is
+  [[nodiscard]] std::uint8_t mavlink_system() const noexcept {
+    return static_cast<std::uint8_t>(system > 0 ? system : id + 1);
+  }
 };
 
 [[nodiscard]] std::string robot_usage();
