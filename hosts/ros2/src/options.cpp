@@ -36,8 +36,10 @@ void add_options(CLI::App& app, Options& o) {
   add_number(app, "--domain", o.domain, 0, largest_domain, "DDS domain; default ROS_DOMAIN_ID, otherwise 0", true);
   add_flag(app, "--localhost", o.localhost, true,
            "talk to this computer alone, as with ROS_LOCALHOST_ONLY=1 or ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST");
-  add_flag(app, "--humble", o.humble, true,
-           "be seen by ros2 node list of ROS 2 Humble and older, and not by newer ones");
+  add_flag(
+      app, "--humble", o.humble, true,
+      "be seen by ros2 node list of ROS 2 Humble and older, and not by newer ones; so if ROS_DISTRO is one of them");
+  app.add_option("--swarm", o.swarm)->group("");  // of banyan run --ros2, which starts this
 }
 
 // What the environment says comes first, as options that are given may say otherwise.
@@ -53,6 +55,8 @@ Options from_environment(const Environment& environment) {
     options.domain = static_cast<std::uint32_t>(std::strtod(domain.c_str(), nullptr));
   }
   options.localhost = value("ROS_LOCALHOST_ONLY") == "1" || value("ROS_AUTOMATIC_DISCOVERY_RANGE") == "LOCALHOST";
+  const std::string distribution = value("ROS_DISTRO");
+  for (const char* old : {"foxy", "galactic", "humble"}) options.humble |= distribution == old;
   return options;
 }
 
@@ -65,6 +69,7 @@ void check_topic(const char* option, const std::string& pattern, std::size_t rob
 }
 
 void check(const Options& options) {
+  if (options.swarm >= 0) return;
   if (options.robots == 0) throw OptionError("--robots or --id is missing");
   if (options.poses.empty() && options.bases.empty())
     throw OptionError("--poses, --bases or both are missing: there is nothing to do");

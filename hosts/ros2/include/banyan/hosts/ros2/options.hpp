@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The command line of banyan-ros2, with what a ROS 2 environment says (ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY and
-// ROS_AUTOMATIC_DISCOVERY_RANGE).
+// The command line of banyan-ros2, with what a ROS 2 environment says (ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY,
+// ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_DISTRO).
 #pragma once
 
 #include <cstdint>
@@ -30,6 +30,7 @@ struct Options {
   std::uint32_t domain = 0;
   bool localhost = false;
   bool humble = false;  // ros_discovery_info as in ROS 2 Humble and older
+  int swarm = -1;       // the socket of a mission that is to be shown, instead of all else; -1: none
 };
 
 using Environment = std::function<const char*(const char*)>;  // as std::getenv
