@@ -89,17 +89,15 @@ std::string list_of(const std::vector<std::size_t>& robots) {
 // What takes the place of World::step's own robots: waits for the moment of each tick.
 class Conductor {
  public:
-  // `tracker`: null if bodies are simulated. `configuration`: for ROS 2, at options.ros2_socket.
+  // `tracker`: null if bodies are simulated. `ros2`: nobody is told if it has no socket.
   Conductor(udp::Hub& hub, udp::PoseStream* tracker, udp::KeyFile& keys, const HubOptions& options,
-            const config::Configuration& configuration)
-      : hub_(hub), tracker_(tracker), keys_(keys), options_(options), configuration_(configuration) {}
+            const Ros2Mission& ros2)
+      : hub_(hub), tracker_(tracker), keys_(keys), options_(options), ros2_(ros2) {}
 
   record::RunEnd operator()(world::World world, record::Sink& sink, world::Executor& executor,
                             const record::GoOn& go_on) {
     std::optional<Ros2Sink> ros2;
-    if (options_.ros2_socket >= 0)
-      ros2.emplace(sink, options_.ros2_socket, configuration_,
-                   tracker_ != nullptr ? RosWorld::real : RosWorld::simulated);
+    if (ros2_.socket >= 0) ros2.emplace(sink, ros2_);
     record::Simulation simulation(std::move(world), ros2 ? *ros2 : sink);
     const auto stopped = [&] { return !go_on(simulation); };
     simulation.stop_when(stopped);
@@ -161,7 +159,7 @@ class Conductor {
   udp::PoseStream* tracker_;
   udp::KeyFile& keys_;
   const HubOptions& options_;
-  const config::Configuration& configuration_;
+  Ros2Mission ros2_;
 };
 
 std::string remarks_on(const udp::HubCounts& counts, const std::string& impairment) {
@@ -219,7 +217,7 @@ udp::KeyFile keys_of(const HubOptions& options) {
   return udp::KeyFile(options.key_file);
 }
 
-int play_scenario(HubOptions options) {
+int play_scenario(const HubOptions& options) {
   config::Configuration configuration = load_fleet(options.run.scenario, options.run.overrides);
   world::Scenario& scenario = configuration.scenario;
   udp::KeyFile keys = keys_of(options);
@@ -232,7 +230,9 @@ int play_scenario(HubOptions options) {
   PageBeside page = options.view ? PageBeside(outputs, configuration.output) : PageBeside();
   try {
     std::optional<Ros2Beside> ros2;
-    if (options.ros2) options.ros2_socket = ros2.emplace().socket();
+    if (options.ros2) ros2.emplace();
+    const Ros2Mission mission{ros2 ? ros2->socket() : options.ros2_socket, configuration,
+                              tracker ? RosWorld::real : RosWorld::simulated, journal ? journal->recorded().size() : 0};
     const udp::HubSettings hub_options{udp::parse_address(options.listen), scenario.tick_s, options.speed,
                                        options.dead_after_s, options.bundle};
     udp::Hub hub(hub_options, robots, keys.keys(), journal.get());
@@ -244,7 +244,7 @@ int play_scenario(HubOptions options) {
     world::World world = make_world(scenario, remote, tracker.get());
     const int code = keep_run(
         configuration, outputs, run, [&] { return std::move(world); },
-        Conductor(hub, tracker.get(), keys, options, configuration),
+        Conductor(hub, tracker.get(), keys, options, mission),
         [&] { return remarks_on(hub.counts(), options.impairment); });
     page.stay();
     return code;

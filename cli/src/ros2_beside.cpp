@@ -71,7 +71,7 @@ struct Asked {
 };
 
 void add_fault(std::string& text, const std::string& key, const std::string& fault) {
-  text += (text.empty() ? "" : "; ") + (key.empty() ? "" : within_event(key) + " ") + fault;
+  text += (text.empty() ? "" : "; ") + (key.empty() ? "" : within_event(key) + ": ") + fault;
 }
 
 Asked event_of(const std::string& command, config::Configuration current, const world::World& world) {
@@ -172,7 +172,8 @@ void Ros2Sink::finish(const world::World& world, const record::RunEnd& end) {
 
 record::ros2::Stamp Ros2Sink::stamp() const {
   using namespace std::chrono;
-  if (kind_ == RosWorld::simulated) return {.nanoseconds = static_cast<std::uint64_t>(std::llround(1e9 * now_.time_s))};
+  if (mission_.kind == RosWorld::simulated)
+    return {.nanoseconds = static_cast<std::uint64_t>(std::llround(1e9 * now_.time_s))};
   const auto now = duration_cast<nanoseconds>(system_clock::now().time_since_epoch());
   return {.nanoseconds = static_cast<std::uint64_t>(now.count())};
 }
@@ -187,15 +188,15 @@ bool Ros2Sink::due(Moment& next, double period_s) const {
 
 void Ros2Sink::say_hello(const world::World& world) {
   robots_ = world.size();
-  put(Topic::hello, kind_ == RosWorld::simulated ? "\1" : std::string_view("\0", 1), robots_);
+  put(Topic::hello, mission_.kind == RosWorld::simulated ? "\1" : std::string_view("\0", 1), robots_);
 }
 
 void Ros2Sink::show(const world::World& world, const measure::Tick& tick, bool all) {
-  if (gone_) return;
+  if (gone_ || world.tick() < mission_.first_tick) return;
   record::capture(world, now_);
   if (!record::still_holds(setting_, world)) setting_ = record::setting_of(world);
   const record::ros2::Stamp moment = stamp();
-  if (kind_ == RosWorld::simulated) {
+  if (mission_.kind == RosWorld::simulated) {
     record::ros2::write_clock(cdr_, moment);
     put(Topic::clock, cdr_.view());
     if (due(next_bodies_, bodies_every_s) || all) show_bodies(moment);
@@ -247,7 +248,7 @@ void Ros2Sink::put(Topic topic, std::string_view message, std::size_t robot) {
 bool Ros2Sink::flush() {
   while (!waiting_.empty() && !gone_) {
     const std::string& next = waiting_.front();
-    if (::send(socket_, next.data(), next.size(), MSG_DONTWAIT | MSG_NOSIGNAL) >= 0) waiting_.pop_front();
+    if (::send(mission_.socket, next.data(), next.size(), MSG_DONTWAIT | MSG_NOSIGNAL) >= 0) waiting_.pop_front();
     else if (errno == EAGAIN || errno == ENOBUFS) return false;
     else if (errno != EINTR) gone_ = true;
   }
@@ -265,7 +266,7 @@ void Ros2Sink::put_log(std::string_view kind, const std::string& text) {
 void Ros2Sink::heed(record::Simulation& simulation) {
   std::array<char, sizeof(feed::Head) + feed::longest_command> room{};
   for (int asked = 0; asked < most_asked && !gone_; ++asked) {
-    const ssize_t size = ::recv(socket_, room.data(), room.size(), MSG_DONTWAIT);
+    const ssize_t size = ::recv(mission_.socket, room.data(), room.size(), MSG_DONTWAIT);
     if (size < static_cast<ssize_t>(sizeof(feed::Head))) return;
     feed::Head head;
     std::memcpy(&head, room.data(), sizeof head);
@@ -277,7 +278,7 @@ void Ros2Sink::heed(record::Simulation& simulation, Topic topic, std::string_vie
   std::string fault;
   const std::string command = topic == Topic::command ? std::string(text) : command_of_point(text, fault);
   Asked asked;
-  if (fault.empty()) asked = event_of(command, configuration_, simulation.world());
+  if (fault.empty()) asked = event_of(command, mission_.configuration, simulation.world());
   else asked.fault = fault;
   const std::string source = name_of_source(topic);
   if (asked.event) {
@@ -290,11 +291,10 @@ void Ros2Sink::heed(record::Simulation& simulation, Topic topic, std::string_vie
   put_log("refused", refusal);
 }
 
-Play played_in_ros2(int socket, const config::Configuration& configuration, double speed) {
-  return [=, &configuration](world::World world, record::Sink& sink, world::Executor& executor,
-                             const record::GoOn& go_on) {
+Play played_in_ros2(const Ros2Mission& mission, double speed) {
+  return [=](world::World world, record::Sink& sink, world::Executor& executor, const record::GoOn& go_on) {
     using Clock = std::chrono::steady_clock;
-    Ros2Sink shown(sink, socket, configuration, RosWorld::simulated);
+    Ros2Sink shown(sink, mission);
     record::Simulation simulation(std::move(world), shown);
     simulation.stop_when([&] { return !go_on(simulation); });
     const double tick_s = simulation.world().scenario().tick_s / speed;

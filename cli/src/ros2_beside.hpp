@@ -6,6 +6,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <string>
@@ -37,13 +38,20 @@ enum class RosWorld : std::uint8_t {
   real,       // stamps have this computer's clock, and others say where bodies are
 };
 
+// What ROS 2 is told of. `configuration` must outlive the run.
+struct Ros2Mission {
+  int socket;  // Ros2Beside::socket()
+  const config::Configuration& configuration;
+  RosWorld kind = RosWorld::simulated;
+  std::uint64_t first_tick = 0;  // those before were shown already, by a hub that this one resumes
+};
+
 // Tells ROS 2 of a run, and the run of what ROS 2 asks. Messages that the other process does not take at once wait for
 // the next tick, or are dropped but for the log; nothing waits for it.
 class Ros2Sink final : public record::Sink {
  public:
-  // `kept` is told of everything first. It and `configuration` must outlive this.
-  Ros2Sink(record::Sink& kept, int socket, const config::Configuration& configuration, RosWorld kind)
-      : kept_(kept), socket_(socket), configuration_(configuration), kind_(kind) {}
+  // `kept` is told of everything first, and must outlive this.
+  Ros2Sink(record::Sink& kept, const Ros2Mission& mission) : kept_(kept), mission_(mission) {}
 
   void start(const world::World& world) override;
   void tick(const world::World& world, const measure::Tick& tick) override;
@@ -68,9 +76,7 @@ class Ros2Sink final : public record::Sink {
   void heed(record::Simulation& simulation, ros2::feed::Topic topic, std::string_view text);
 
   record::Sink& kept_;
-  int socket_;
-  const config::Configuration& configuration_;
-  RosWorld kind_;
+  Ros2Mission mission_;
   bool gone_ = false;
   std::deque<std::string> waiting_;  // datagrams
   record::ros2::CdrWriter cdr_;
@@ -82,6 +88,6 @@ class Ros2Sink final : public record::Sink {
 };
 
 // As record::run_scenario, at `speed` times real time and with ROS 2.
-[[nodiscard]] Play played_in_ros2(int socket, const config::Configuration& configuration, double speed);
+[[nodiscard]] Play played_in_ros2(const Ros2Mission& mission, double speed);
 
 }  // namespace banyan::cli

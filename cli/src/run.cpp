@@ -174,7 +174,7 @@ int run_command(const RunCommand& options) {
   try {
     std::optional<Ros2Beside> ros2;
     if (options.ros2) ros2.emplace();
-    const Play play = ros2 ? played_in_ros2(ros2->socket(), configuration, options.speed) : record::run_scenario;
+    const Play play = ros2 ? played_in_ros2({ros2->socket(), configuration}, options.speed) : record::run_scenario;
     return keep_run(
         configuration, outputs, options, [&] { return world::World(configuration.scenario); }, play);
   } catch (...) {

@@ -69,7 +69,6 @@ void check_topic(const char* option, const std::string& pattern, std::size_t rob
 }
 
 void check(const Options& options) {
-  if (options.swarm >= 0) return;
   if (options.robots == 0) throw OptionError("--robots or --id is missing");
   if (options.poses.empty() && options.bases.empty())
     throw OptionError("--poses, --bases or both are missing: there is nothing to do");
@@ -104,6 +103,10 @@ Options parse_options(std::span<const std::string> arguments, const Environment&
   if (app.count("--id") > 0) {
     if (options.robots > 0) throw OptionError("--robots and --id exclude each other: give one of the two");
     options.robots = 1;
+  }
+  if (options.swarm >= 0) {
+    options.node = "banyan";
+    return options;
   }
   if (options.pose_topic.empty() && options.odometry_topic.empty()) options.pose_topic = "/robot_{}/pose";
   check(options);

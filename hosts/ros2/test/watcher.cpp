@@ -12,7 +12,7 @@
 
 #include <chrono>
 #include <cmath>
-#include <iostream>
+#include <cstdlib>
 #include <map>
 #include <sstream>
 #include <thread>
@@ -40,11 +40,16 @@ class Watcher {
 
   void watch() {
     pollfd input{STDIN_FILENO, POLLIN, 0};
-    for (std::string line;;) {
+    std::string begun;
+    for (bool open = true; open;) {
       look();
       if (::poll(&input, 1, 10) <= 0) continue;
-      if (!std::getline(std::cin, line)) break;
-      ask(line);
+      std::array<char, 256> room{};
+      const ssize_t size = ::read(STDIN_FILENO, room.data(), room.size());
+      open = size > 0;
+      if (open) begun.append(room.data(), static_cast<std::size_t>(size));
+      for (std::size_t end = 0; (end = begun.find('\n')) != std::string::npos; begun.erase(0, end + 1))
+        ask(begun.substr(0, end));
     }
     look();
     for (const std::string& line : discovery_.lines()) std::printf("%s\n", line.c_str());
@@ -56,15 +61,15 @@ class Watcher {
  private:
   void ask(const std::string& line) {
     std::istringstream words(line);
-    std::string what, frame;
-    double x = 0.0, y = 0.0;
+    std::string what, frame, x_text, y_text;
     words >> what;
     if (what == "command") {
       String message{line.substr(what.size() + 1)};
       commands_->write(&message);
       return;
     }
-    words >> frame >> x >> y;
+    words >> frame >> x_text >> y_text;
+    const double x = std::strtod(x_text.c_str(), nullptr), y = std::strtod(y_text.c_str(), nullptr);
     PointStamped point{{0, 0, frame}, {x, y, 0.0}};
     PoseStamped pose{{0, 0, frame}, {{x, y, 0.0, 0.0, 0.0, 0.0, 1.0}}};
     if (what == "click") clicks_->write(&point);
