@@ -145,11 +145,12 @@ Ros2Beside::Ros2Beside() : socket_(-1), process_(0) {
 }
 
 Ros2Beside::~Ros2Beside() {
+  using Clock = std::chrono::steady_clock;
   ::close(socket_);  // by which it ends
-  for (int patience = 100; ::waitpid(process_, nullptr, WNOHANG) == 0; --patience) {
-    if (patience == 0) ::kill(process_, SIGKILL);
-    const timespec moment{0, 10'000'000};
-    ::nanosleep(&moment, nullptr);
+  const auto patience = Clock::now() + std::chrono::seconds(1);
+  while (::waitpid(process_, nullptr, WNOHANG) == 0) {
+    if (Clock::now() > patience) ::kill(process_, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/hosts/ros2/options.hpp"
 
+#include <cctype>
+#include <sstream>
+
 #include "banyan/hosts/ros2/names.hpp"
 #include "banyan/hosts/udp/command_line.hpp"
 
@@ -42,6 +45,22 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--swarm", o.swarm)->group("");  // of banyan run --ros2, which starts this
 }
 
+// As ROS 2 has them: separated by semicolons.
+std::vector<std::string> peers_of(const std::string& list) {
+  std::vector<std::string> peers;
+  std::istringstream words(list);
+  for (std::string peer; std::getline(words, peer, ';');) {
+    if (peer.empty()) continue;
+    for (const char c : peer)
+      if (std::isalnum(static_cast<unsigned char>(c)) == 0 &&
+          std::string_view(".-_:").find(c) == std::string_view::npos)
+        throw OptionError("ROS_STATIC_PEERS has \"" + peer +
+                          "\", which is no address; expected are addresses with ; between them");
+    peers.push_back(peer);
+  }
+  return peers;
+}
+
 // What the environment says comes first, as options that are given may say otherwise.
 Options from_environment(const Environment& environment) {
   const auto value = [&](const char* name) {
@@ -55,6 +74,7 @@ Options from_environment(const Environment& environment) {
     options.domain = static_cast<std::uint32_t>(std::strtod(domain.c_str(), nullptr));
   }
   options.localhost = value("ROS_LOCALHOST_ONLY") == "1" || value("ROS_AUTOMATIC_DISCOVERY_RANGE") == "LOCALHOST";
+  options.peers = peers_of(value("ROS_STATIC_PEERS"));
   const std::string distribution = value("ROS_DISTRO");
   for (const char* old : {"foxy", "galactic", "humble"}) options.humble |= distribution == old;
   return options;

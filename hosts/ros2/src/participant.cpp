@@ -21,10 +21,20 @@ constexpr const char* on_this_computer =
     "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
     "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>";
 
+// What rmw_cyclonedds sets for ROS_STATIC_PEERS.
+std::string with_peers(const std::vector<std::string>& peers) {
+  std::string text =
+      "<CycloneDDS><Domain><Discovery><ParticipantIndex>auto</ParticipantIndex>"
+      "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex><Peers>";
+  for (const std::string& peer : peers) text += "<Peer address=\"" + peer + "\"/>";
+  return text + "</Peers></Discovery></Domain></CycloneDDS>";
+}
+
 dds_entity_t join(const Options& options) {
-  if (!options.localhost) return DDS_ENTITY_NIL;  // as CYCLONEDDS_URI says
+  if (!options.localhost && options.peers.empty()) return DDS_ENTITY_NIL;  // as CYCLONEDDS_URI says
   const char* given = std::getenv("CYCLONEDDS_URI");
-  const std::string configuration = std::string(on_this_computer) + (given == nullptr ? "" : std::string(",") + given);
+  const std::string own = options.localhost ? on_this_computer : with_peers(options.peers);
+  const std::string configuration = own + (given == nullptr ? "" : std::string(",") + given);
   return sound(dds_create_domain(options.domain, configuration.c_str()), "domain " + std::to_string(options.domain));
 }
 

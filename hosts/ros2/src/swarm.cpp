@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <string>
 
@@ -30,6 +31,9 @@ class SwarmShow {
       if (watched[0].revents != 0 && !take()) break;
     }
     node_.settle(farewell_s);
+    if (node_.unsent() > 0)
+      std::fprintf(stderr, "banyan-ros2: %llu messages were not sent, because readers were slow\n",
+                   static_cast<unsigned long long>(node_.unsent()));
     return 0;
   }
 
