@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ros2_beside.hpp"
 
-#include <fcntl.h>
-#include <poll.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -23,7 +22,7 @@
 namespace banyan::cli {
 namespace {
 
-using ros2::feed::Topic;
+using ros2::feed::FeedTopic;
 namespace feed = ros2::feed;
 
 // By the wall's clock: what eyes can follow, and what a slow network carries.
@@ -34,8 +33,8 @@ constexpr std::size_t most_waiting = 1000;  // datagrams
 constexpr int most_asked = 100;             // in a tick
 constexpr double look_every_s = 0.02;       // for signals and questions, while a tick is waited for
 
-std::string marked(Topic topic, std::uint8_t place, std::size_t robot, std::string_view part) {
-  const feed::Head head{topic, place, static_cast<std::uint16_t>(robot)};
+std::string marked(FeedTopic topic, std::uint8_t place, std::size_t robot, std::string_view part) {
+  const feed::PartHead head{topic, place, static_cast<std::uint16_t>(robot)};
   std::string datagram(sizeof head, '\0');
   std::memcpy(datagram.data(), &head, sizeof head);
   return datagram.append(part);
@@ -114,13 +113,13 @@ std::string command_of_point(std::string_view text, std::string& fault) {
   return "add_target position_m=[" + config::number_text(at[0]) + "," + config::number_text(at[1]) + "]";
 }
 
-const char* name_of_source(Topic topic) {
-  return topic == Topic::goal ? "/goal_pose" : topic == Topic::click ? "/clicked_point" : "/banyan/command";
+const char* name_of_source(FeedTopic topic) {
+  return topic == FeedTopic::goal ? "/goal_pose" : topic == FeedTopic::click ? "/clicked_point" : "/banyan/command";
 }
 
 }  // namespace
 
-Ros2Beside::Ros2Beside() : socket_(-1), process_(0) {
+Ros2Beside::Ros2Beside() {
   std::array<int, 2> ends{};
   std::array<std::string, 3> words{ros2_program(), "--swarm", ""};
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends.data()) != 0)
@@ -157,7 +156,7 @@ Ros2Beside::~Ros2Beside() {
 void Ros2Sink::start(const world::World& world) {
   kept_.start(world);
   say_hello(world);
-  show(world, {}, true);
+  show(world, measure::at_start(world, false), true);
 }
 
 void Ros2Sink::tick(const world::World& world, const measure::Tick& tick) {
@@ -168,7 +167,7 @@ void Ros2Sink::tick(const world::World& world, const measure::Tick& tick) {
 
 void Ros2Sink::finish(const world::World& world, const record::RunEnd& end) {
   kept_.finish(world, end);
-  show(world, end.last, true);
+  show(world, world.tick() > 0 ? end.last : measure::at_start(world, false), true);
 }
 
 record::ros2::Stamp Ros2Sink::stamp() const {
@@ -180,7 +179,7 @@ record::ros2::Stamp Ros2Sink::stamp() const {
 }
 
 // Moments that were missed are not made up for.
-bool Ros2Sink::due(Moment& next, double period_s) const {
+bool Ros2Sink::due(Moment& next, double period_s) {
   const Moment now = std::chrono::steady_clock::now();
   if (now < next) return false;
   next = now + std::chrono::duration_cast<Moment::duration>(std::chrono::duration<double>(period_s));
@@ -189,7 +188,7 @@ bool Ros2Sink::due(Moment& next, double period_s) const {
 
 void Ros2Sink::say_hello(const world::World& world) {
   robots_ = world.size();
-  put(Topic::hello, mission_.kind == RosWorld::simulated ? "\1" : std::string_view("\0", 1), robots_);
+  put(FeedTopic::hello, mission_.kind == RosWorld::simulated ? "\1" : std::string_view("\0", 1), robots_);
 }
 
 void Ros2Sink::show(const world::World& world, const measure::Tick& tick, bool all) {
@@ -199,7 +198,7 @@ void Ros2Sink::show(const world::World& world, const measure::Tick& tick, bool a
   const record::ros2::Stamp moment = stamp();
   if (mission_.kind == RosWorld::simulated) {
     record::ros2::write_clock(cdr_, moment);
-    put(Topic::clock, cdr_.view());
+    put(FeedTopic::clock, cdr_.view());
     if (due(next_bodies_, bodies_every_s) || all) show_bodies(moment);
   }
   const auto robots = static_cast<double>(now_.robots.size());
@@ -207,34 +206,34 @@ void Ros2Sink::show(const world::World& world, const measure::Tick& tick, bool a
     const bool with_links = now_.robots.size() <= robots_with_links;
     const record::RadioLinks links = with_links ? record::radio_links(setting_, now_) : record::RadioLinks{};
     record::ros2::write_markers(cdr_, moment, setting_, now_, &links);
-    put(Topic::markers, cdr_.view());
+    put(FeedTopic::markers, cdr_.view());
   }
   for (const record::RecordedEvent& event : watcher_.watch(setting_, now_, tick)) {
     record::ros2::write_log(cdr_, moment, event);
-    put(Topic::log, cdr_.view());
+    put(FeedTopic::log, cdr_.view());
   }
   if (due(next_diagnosis_, diagnosis_every_s) || all) {
     const auto parts = record::ros2::diagnose(tick, now_.robots.size());
     record::ros2::write_diagnostics(cdr_, moment, parts);
-    put(Topic::diagnostics, cdr_.view());
+    put(FeedTopic::diagnostics, cdr_.view());
   }
 }
 
 void Ros2Sink::show_bodies(const record::ros2::Stamp& moment) {
   record::ros2::write_transforms(cdr_, moment, now_);
-  put(Topic::transforms, cdr_.view());
+  put(FeedTopic::transforms, cdr_.view());
   const bool known = shown_.robots.size() == now_.robots.size();
   const double elapsed_s = known ? now_.time_s - shown_.time_s : 0.0;
   for (std::size_t i = 0; i < std::min(now_.robots.size(), feed::most_odometers); ++i) {
     const record::RobotFrame& before = known ? shown_.robots[i] : now_.robots[i];
     record::ros2::write_odometry(cdr_, moment, i, now_.robots[i], before, elapsed_s);
-    put(Topic::odometry, cdr_.view(), i);
+    put(FeedTopic::odometry, cdr_.view(), i);
   }
   shown_ = now_;
 }
 
-void Ros2Sink::put(Topic topic, std::string_view message, std::size_t robot) {
-  const bool must_arrive = topic == Topic::hello || topic == Topic::log;
+void Ros2Sink::put(FeedTopic topic, std::string_view message, std::size_t robot) {
+  const bool must_arrive = topic == FeedTopic::hello || topic == FeedTopic::log;
   if (gone_ || (!flush() && (!must_arrive || waiting_.size() > most_waiting))) return;
   std::uint8_t place = feed::first_part;
   for (std::size_t from = 0; from < message.size(); from += feed::largest_part) {
@@ -261,30 +260,30 @@ bool Ros2Sink::flush() {
 
 void Ros2Sink::put_log(std::string_view kind, const std::string& text) {
   record::ros2::write_log(cdr_, stamp(), {now_.tick, now_.time_s, std::string(kind), -1, -1, text});
-  put(Topic::log, cdr_.view());
+  put(FeedTopic::log, cdr_.view());
 }
 
 void Ros2Sink::heed(record::Simulation& simulation) {
-  std::array<char, sizeof(feed::Head) + feed::longest_command> room{};
+  std::array<char, sizeof(feed::PartHead) + feed::longest_command> room{};
   for (int asked = 0; asked < most_asked && !gone_; ++asked) {
     const ssize_t size = ::recv(mission_.socket, room.data(), room.size(), MSG_DONTWAIT);
-    if (size < static_cast<ssize_t>(sizeof(feed::Head))) return;
-    feed::Head head;
+    if (size < static_cast<ssize_t>(sizeof(feed::PartHead))) return;
+    feed::PartHead head;
     std::memcpy(&head, room.data(), sizeof head);
     heed(simulation, head.topic, {room.data() + sizeof head, static_cast<std::size_t>(size) - sizeof head});
   }
 }
 
-void Ros2Sink::heed(record::Simulation& simulation, Topic topic, std::string_view text) {
+void Ros2Sink::heed(record::Simulation& simulation, FeedTopic topic, std::string_view text) {
   std::string fault;
-  const std::string command = topic == Topic::command ? std::string(text) : command_of_point(text, fault);
+  const std::string command = topic == FeedTopic::command ? std::string(text) : command_of_point(text, fault);
   Asked asked;
   if (fault.empty()) asked = event_of(command, mission_.configuration, simulation.world());
   else asked.fault = fault;
   const std::string source = name_of_source(topic);
   if (asked.event) {
     simulation.intervene(*asked.event);
-    return put_log("asked", source + ": " + command);
+    return put_log("asked", source + ": " + printable_lines(command));
   }
   const std::string refusal =
       source + ": refused: " + printable_lines(asked.fault) + " (" + printable_lines(command) + ")";
@@ -312,8 +311,7 @@ Play played_in_ros2(const Ros2Mission& mission, double speed) {
       }
       shown.heed(simulation);
       simulation.step(executor);
-      // Ticks that took too long are not made up for: clocks of ROS 2 do not leap.
-      next = std::max(next + seconds(tick_s), Clock::now() - seconds(tick_s));
+      next = std::max(next + seconds(tick_s), Clock::now());  // what took too long is not made up for
     }
     return simulation.finish(false);
   };

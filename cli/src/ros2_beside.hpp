@@ -29,8 +29,8 @@ class Ros2Beside {
   [[nodiscard]] int socket() const noexcept { return socket_; }  // the mission's end
 
  private:
-  int socket_;
-  pid_t process_;
+  int socket_ = -1;
+  pid_t process_ = 0;
 };
 
 enum class RosWorld : std::uint8_t {
@@ -67,13 +67,13 @@ class Ros2Sink final : public record::Sink {
 
   void say_hello(const world::World& world);
   void show(const world::World& world, const measure::Tick& tick, bool all);
-  void show_bodies(const record::ros2::Stamp& stamp);
-  void put(ros2::feed::Topic topic, std::string_view message, std::size_t robot = 0);
+  void show_bodies(const record::ros2::Stamp& moment);
+  void put(ros2::feed::FeedTopic topic, std::string_view message, std::size_t robot = 0);
   void put_log(std::string_view kind, const std::string& text);
   [[nodiscard]] bool flush();
   [[nodiscard]] record::ros2::Stamp stamp() const;
-  [[nodiscard]] bool due(Moment& next, double period_s) const;
-  void heed(record::Simulation& simulation, ros2::feed::Topic topic, std::string_view text);
+  [[nodiscard]] static bool due(Moment& next, double period_s);
+  void heed(record::Simulation& simulation, ros2::feed::FeedTopic topic, std::string_view text);
 
   record::Sink& kept_;
   Ros2Mission mission_;

@@ -112,6 +112,7 @@ TEST_F(MissionInRos, IsSeenWholeByAnotherDds) {
   EXPECT_TRUE(said.contains("status 0 banyan: network: in one part"));
   std::size_t with_tree = 0;
   for (const std::string& line : said) {
+    EXPECT_FALSE(line.starts_with("status 2")) << line;
     EXPECT_FALSE(has(line, "another speed") || has(line, "where no robot is")) << line;
     if (line.starts_with("markers robots:9 headings:18 ") && has(line, " tree:") && has(line, " links:") &&
         has(line, " targets:1 target_names:1"))

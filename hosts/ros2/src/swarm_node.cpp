@@ -15,7 +15,7 @@
 namespace banyan::ros2 {
 namespace {
 
-using feed::Topic;
+using feed::FeedTopic;
 
 // A message that tells the mission of a point.
 std::string point_text(const std_msgs_msg_dds__Header_& header, const geometry_msgs_msg_dds__Point_& point) {
@@ -50,19 +50,19 @@ struct SwarmNode::Parts {
     clicks = node.read("/clicked_point", geometry_msgs_msg_dds__PointStamped__desc, all);
     commands = node.read("/banyan/command", std_msgs_msg_dds__String__desc, all);
     const Qos lossless = quality(DDS_RELIABILITY_RELIABLE, usual_depth);
-    add(Topic::markers, "/markers", "visualization_msgs::msg::dds_::MarkerArray_", lossless);
-    add(Topic::diagnostics, "/diagnostics", "diagnostic_msgs::msg::dds_::DiagnosticArray_", lossless);
-    add(Topic::log, "/rosout", "rcl_interfaces::msg::dds_::Log_", quality_of_log());
+    add(FeedTopic::markers, "/markers", "visualization_msgs::msg::dds_::MarkerArray_", lossless);
+    add(FeedTopic::diagnostics, "/diagnostics", "diagnostic_msgs::msg::dds_::DiagnosticArray_", lossless);
+    add(FeedTopic::log, "/rosout", "rcl_interfaces::msg::dds_::Log_", quality_of_log());
     node.introduce();
   }
 
-  void add(Topic topic, const std::string& name, const char* type, const Qos& qos) {
+  void add(FeedTopic topic, const std::string& name, const char* type, const Qos& qos) {
     channels.try_emplace({topic, 0}, node, name, type, qos);
   }
 
   DdsParticipant node;
   dds_entity_t goals = DDS_ENTITY_NIL, clicks = DDS_ENTITY_NIL, commands = DDS_ENTITY_NIL;
-  std::map<std::pair<Topic, std::size_t>, Channel> channels;  // the second: the robot, else 0
+  std::map<std::pair<FeedTopic, std::size_t>, Channel> channels;  // the second: the robot, else 0
   std::uint64_t unsent = 0;
 };
 
@@ -73,16 +73,16 @@ void SwarmNode::hello(std::size_t robots, bool simulated) {
   if (!simulated) return;
   Parts& p = *parts_;
   const std::size_t before = p.channels.size();
-  p.add(Topic::clock, "/clock", "rosgraph_msgs::msg::dds_::Clock_", quality(DDS_RELIABILITY_RELIABLE, 1));
-  p.add(Topic::transforms, "/tf", "tf2_msgs::msg::dds_::TFMessage_", quality(DDS_RELIABILITY_RELIABLE, tf_depth));
+  p.add(FeedTopic::clock, "/clock", "rosgraph_msgs::msg::dds_::Clock_", quality(DDS_RELIABILITY_RELIABLE, 1));
+  p.add(FeedTopic::transforms, "/tf", "tf2_msgs::msg::dds_::TFMessage_", quality(DDS_RELIABILITY_RELIABLE, tf_depth));
   for (std::size_t i = 0; i < std::min(robots, feed::most_odometers); ++i)
-    p.channels.try_emplace({Topic::odometry, i}, p.node, of_robot("/robot_{}/odom", i),
+    p.channels.try_emplace({FeedTopic::odometry, i}, p.node, of_robot("/robot_{}/odom", i),
                            "nav_msgs::msg::dds_::Odometry_", quality(DDS_RELIABILITY_RELIABLE, usual_depth));
   if (p.channels.size() > before) p.node.introduce();
 }
 
-void SwarmNode::publish(Topic topic, std::size_t robot, std::string_view cdr) {
-  const auto found = parts_->channels.find({topic, topic == Topic::odometry ? robot : 0});
+void SwarmNode::publish(FeedTopic topic, std::size_t robot, std::string_view cdr) {
+  const auto found = parts_->channels.find({topic, topic == FeedTopic::odometry ? robot : 0});
   if (found == parts_->channels.end()) return;
   if (!found->second.topic.write(found->second.writer, cdr)) ++parts_->unsent;
 }
@@ -91,12 +91,14 @@ int SwarmNode::descriptor() const noexcept { return parts_->node.descriptor(); }
 
 void SwarmNode::listen(const Ask& ask) {
   parts_->node.reset();
-  take_all<geometry_msgs_msg_dds__PoseStamped_>(
-      parts_->goals, [&](const auto& message) { ask(Topic::goal, point_text(message.header, message.pose.position)); });
+  take_all<geometry_msgs_msg_dds__PoseStamped_>(parts_->goals, [&](const auto& message) {
+    ask(FeedTopic::goal, point_text(message.header, message.pose.position));
+  });
   take_all<geometry_msgs_msg_dds__PointStamped_>(
-      parts_->clicks, [&](const auto& message) { ask(Topic::click, point_text(message.header, message.point)); });
-  take_all<std_msgs_msg_dds__String_>(
-      parts_->commands, [&](const auto& message) { ask(Topic::command, message.data == nullptr ? "" : message.data); });
+      parts_->clicks, [&](const auto& message) { ask(FeedTopic::click, point_text(message.header, message.point)); });
+  take_all<std_msgs_msg_dds__String_>(parts_->commands, [&](const auto& message) {
+    ask(FeedTopic::command, message.data == nullptr ? "" : message.data);
+  });
 }
 
 std::uint64_t SwarmNode::unsent() const noexcept { return parts_->unsent; }

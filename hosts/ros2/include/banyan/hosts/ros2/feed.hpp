@@ -8,7 +8,7 @@
 
 namespace banyan::ros2::feed {
 
-enum class Topic : std::uint8_t {
+enum class FeedTopic : std::uint8_t {
   // From the mission: first what it is, then messages in CDR.
   hello,        // `robot`: how many there are; one byte: 1 if the clock and the bodies are simulated, else 0
   clock,        // rosgraph_msgs/Clock on /clock, where they are; so are the next two
@@ -25,12 +25,12 @@ enum class Topic : std::uint8_t {
 
 // In front of each datagram. `place`: whether it begins a message, ends it, or both.
 constexpr std::uint8_t first_part = 1, last_part = 2, whole = first_part | last_part;
-struct Head {
-  Topic topic = Topic::hello;
+struct PartHead {
+  FeedTopic topic = FeedTopic::hello;
   std::uint8_t place = whole;
   std::uint16_t robot = 0;
 };
-static_assert(sizeof(Head) == 4);
+static_assert(sizeof(PartHead) == 4);
 
 constexpr std::size_t largest_part = 32768;    // bytes after the head
 constexpr std::size_t longest_command = 4096;  // characters

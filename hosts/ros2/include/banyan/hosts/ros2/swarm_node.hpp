@@ -15,7 +15,7 @@ namespace banyan::ros2 {
 class SwarmNode {
  public:
   // The message for the mission, as feed.hpp has it.
-  using Ask = std::function<void(feed::Topic, std::string_view)>;
+  using Ask = std::function<void(feed::FeedTopic, std::string_view)>;
 
   // Publishes nothing until it is told by hello() what there is. Throws NodeError, as does hello().
   explicit SwarmNode(const Options& options);
@@ -26,7 +26,7 @@ class SwarmNode {
   // So many robots; `simulated`: with a clock, transforms and odometry. Again when there are more.
   void hello(std::size_t robots, bool simulated);
   // What has no topic is left out.
-  void publish(feed::Topic topic, std::size_t robot, std::string_view cdr);
+  void publish(feed::FeedTopic topic, std::size_t robot, std::string_view cdr);
   // Can be read when something has arrived.
   [[nodiscard]] int descriptor() const noexcept;
   void listen(const Ask& ask);
