@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A swarm in ROS 2, and RViz to look at it.
 
-    ros2 launch banyan swarm.launch.py scenario:=office.toml speed:=2
+    ros2 launch banyan swarm.launch.py scenario:=rooms.toml speed:=2
     ros2 launch hosts/ros2/launch/swarm.launch.py      (in a clone, without installing anything)
 
 Every argument is an option of `banyan run` or `banyan fleet`; `options` has room for all others.
