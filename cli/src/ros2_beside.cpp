@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ros2_beside.hpp"
 
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/socket.h>
@@ -138,9 +139,22 @@ Ros2Beside::Ros2Beside() {
   ::posix_spawn_file_actions_destroy(&actions);
   ::posix_spawnattr_destroy(&attributes);
   ::close(ends[1]);
-  if (error == 0) return;
+  if (error == 0 && begins()) return;
   ::close(socket_);
-  throw CommandError(exit_lost, words[0] + ": " + std::strerror(error));
+  if (error != 0) throw CommandError(exit_lost, words[0] + ": " + std::strerror(error));
+  int status = 0;
+  ::waitpid(process_, &status, 0);
+  const bool bad_usage = WIFEXITED(status) && WEXITSTATUS(status) == exit_usage;
+  throw CommandError(bad_usage ? exit_usage : exit_lost, "banyan-ros2 could not begin, so nothing was started");
+}
+
+// False: it has ended. One that takes long is not waited for.
+bool Ros2Beside::begins() const {
+  constexpr int patience_ms = 5000;
+  pollfd answer{socket_, POLLIN, 0};
+  if (::poll(&answer, 1, patience_ms) <= 0) return true;
+  feed::PartHead head;
+  return ::recv(socket_, &head, sizeof head, MSG_DONTWAIT) > 0;
 }
 
 Ros2Beside::~Ros2Beside() {
@@ -275,6 +289,7 @@ void Ros2Sink::heed(record::Simulation& simulation) {
 }
 
 void Ros2Sink::heed(record::Simulation& simulation, FeedTopic topic, std::string_view text) {
+  if (topic == FeedTopic::hello) return;  // from one that took long
   std::string fault;
   const std::string command = topic == FeedTopic::command ? std::string(text) : command_of_point(text, fault);
   Asked asked;

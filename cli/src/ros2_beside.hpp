@@ -22,13 +22,15 @@ namespace banyan::cli {
 
 class Ros2Beside {
  public:
-  Ros2Beside();   // starts it; throws CommandError
+  Ros2Beside();   // starts it; throws CommandError, also if it cannot begin
   ~Ros2Beside();  // ends it, when readers have all that was said or after a second
   Ros2Beside(const Ros2Beside&) = delete;
   Ros2Beside& operator=(const Ros2Beside&) = delete;
   [[nodiscard]] int socket() const noexcept { return socket_; }  // the mission's end
 
  private:
+  [[nodiscard]] bool begins() const;
+
   int socket_ = -1;
   pid_t process_ = 0;
 };

@@ -5,6 +5,7 @@
 
 #include <regex>
 #include <set>
+#include <tuple>
 
 #include "started_processes.hpp"
 
@@ -159,6 +160,20 @@ TEST_F(MissionInRos, DoesWhatItIsAskedAndSaysWhatItRefuses) {
   EXPECT_EQ(outcome.code, 130) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "/clicked_point: refused: the point is in the frame \"camera\"")) << outcome.err;
   EXPECT_TRUE(exists("result/run.mcap"));
+}
+
+TEST_F(MissionInRos, IsNotBegunWhereRosCannotBe) {
+  for (const auto& [variable, value, code] :
+       {std::tuple("ROS_DOMAIN_ID", "300", 2), std::tuple("CYCLONEDDS_URI", "<broken", 1)}) {
+    Circumstances how = in_ros();
+    std::erase_if(how.environment, [&](const auto& given) { return given.first == variable; });
+    how.environment.emplace_back(variable, value);
+    const Outcome outcome = run({"run", scenario(), "--ros2", "--out", "result"}, how);
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "banyan-ros2 could not begin, so nothing was started")) << outcome.err;
+    EXPECT_FALSE(exists("result/run.json"));
+  }
+  EXPECT_EQ(run({"run", scenario(), "--speed", "2"}).code, 2);  // of what is not shown
 }
 
 // Neither a ROS 2 that stands still nor one that dies costs a mission time or results.

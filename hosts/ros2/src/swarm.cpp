@@ -23,6 +23,7 @@ class SwarmShow {
   explicit SwarmShow(const Options& options) : socket_(options.swarm), node_(options) {}
 
   int run() {
+    ask(feed::FeedTopic::hello, "");
     std::array<pollfd, 2> watched{{{socket_, POLLIN, 0}, {node_.descriptor(), POLLIN, 0}}};
     for (;;) {
       if (::poll(watched.data(), watched.size(), -1) < 0 && errno != EINTR) break;

@@ -17,7 +17,7 @@ enum class FeedTopic : std::uint8_t {
   markers,      // visualization_msgs/MarkerArray on /markers
   diagnostics,  // diagnostic_msgs/DiagnosticArray on /diagnostics
   log,          // rcl_interfaces/Log on /rosout
-  // To the mission.
+  // To the mission: hello, empty, when the node is there, and then what is asked.
   goal,     // of /goal_pose: x and y, 8 bytes each, and the name of the frame
   click,    // the same of /clicked_point
   command,  // text of /banyan/command
