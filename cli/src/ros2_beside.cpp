@@ -278,6 +278,7 @@ void Ros2Sink::put_log(std::string_view kind, const std::string& text) {
 }
 
 void Ros2Sink::heed(record::Simulation& simulation) {
+  if (simulation.world().tick() < mission_.first_tick) return;  // that was then
   std::array<char, sizeof(feed::PartHead) + feed::longest_command> room{};
   for (int asked = 0; asked < most_asked && !gone_; ++asked) {
     const ssize_t size = ::recv(mission_.socket, room.data(), room.size(), MSG_DONTWAIT);
