@@ -96,6 +96,14 @@ endif()
 if(TARGET banyan_ros2)
   install(TARGETS banyan_ros2 RUNTIME COMPONENT ros2)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/banyan-ros2 RENAME copyright COMPONENT ros2)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/hosts/ros2/launch ${PROJECT_SOURCE_DIR}/hosts/ros2/rviz ${PROJECT_SOURCE_DIR}/hosts/ros2/foxglove
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT ros2 PATTERN __pycache__ EXCLUDE)
+  # By which `ros2 launch` finds them: an entry in ament's index, and hooks for colcon's setup (colcon.pkg).
+  file(WRITE ${generated}/index/banyan "")
+  file(WRITE ${generated}/hook/ament_prefix_path.dsv "prepend-non-duplicate;AMENT_PREFIX_PATH;\n")
+  file(WRITE ${generated}/hook/ament_prefix_path.sh "_colcon_prepend_unique_value AMENT_PREFIX_PATH \"$COLCON_CURRENT_PREFIX\"\n")
+  install(FILES ${generated}/index/banyan DESTINATION ${CMAKE_INSTALL_DATADIR}/ament_index/resource_index/packages COMPONENT ros2)
+  install(DIRECTORY ${generated}/hook DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT ros2)
 endif()
 
 # cpack -G DEB: `banyan` (the program), `libbanyan-dev` (what a developer links), and `python3-banyan` and

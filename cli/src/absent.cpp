@@ -25,8 +25,4 @@ void add_listen(CLI::App& command, CommandAction& /*action*/) { absent(command.g
 void add_study(CLI::App& command, CommandAction& /*action*/) { absent(command.get_name()); }
 void add_view(CLI::App& command, CommandAction& /*action*/) { absent(command.get_name()); }
 
-std::string robot_program() { absent("robot"); }
-std::string ros2_program() { absent("ros2"); }
-std::string tune_program() { absent("tune"); }
-
 }  // namespace banyan::cli

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 
 #include "banyan/hosts/udp/fleet.hpp"
 #include "banyan/hosts/udp/key.hpp"
@@ -17,6 +18,7 @@
 #include "options.hpp"
 #include "outputs.hpp"
 #include "page_beside.hpp"
+#include "ros2_beside.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
@@ -27,6 +29,7 @@ struct FleetOptions {
   bool loopback = false;  // no network namespaces
   bool restart = true;    // robots that end unasked
   bool view = false;      // the page beside it
+  bool ros2 = false;      // shown in ROS 2
   double speed = 1.0;
   std::size_t bundle = 1;
   double loss = 0.0;  // from here on: of the way from robot to robot
@@ -86,7 +89,7 @@ void choose_impairment(const FleetOptions& options, udp::Fleet::Plan& plan) {
 }
 
 udp::Arguments hub_arguments(const FleetOptions& options, const std::string& key, const std::string& out,
-                             const std::string& journal) {
+                             const std::string& journal, int ros2) {
   // Option and value side by side.
   // clang-format off
   udp::Arguments arguments{own_program(), "hub", options.run.scenario, "--key", key, "--out", out, "--force",
@@ -96,6 +99,7 @@ udp::Arguments hub_arguments(const FleetOptions& options, const std::string& key
     if (override.file.empty()) arguments.insert(arguments.end(), {"--set", override.assignment});
     else arguments.insert(arguments.end(), {"--with", override.file});
   }
+  if (ros2 >= 0) arguments.insert(arguments.end(), {"--ros2-socket", std::to_string(ros2)});
   if (options.run.quiet) arguments.emplace_back("--quiet");
   if (options.run.json) arguments.emplace_back("--json");
   return arguments;
@@ -123,9 +127,9 @@ int run_fleet(udp::Fleet::Plan plan) {
 }
 
 udp::Fleet::Plan make_plan(const FleetOptions& options, const world::Scenario& scenario, const std::string& key,
-                           const std::string& out, const std::string& journal) {
+                           const std::string& out, const std::string& journal, int ros2) {
   udp::Fleet::Plan plan;
-  plan.hub = hub_arguments(options, key, out, journal);
+  plan.hub = hub_arguments(options, key, out, journal, ros2);
   for (std::size_t i = 0; i < world::robot_count(scenario); ++i)
     plan.robots.push_back(robot_arguments(options, scenario, i, key));
   plan.restart = options.restart;
@@ -148,9 +152,12 @@ int start_fleet(const FleetOptions& options) {
   try {
     PageBeside page =
         options.view ? PageBeside(outputs, configuration.output) : PageBeside();  // in the network of the browser
+    std::optional<Ros2Beside> ros2;                                               // likewise in the network of ROS 2
+    if (options.ros2) ros2.emplace();
     const std::string journal = outputs.directory() + "/fleet.journal";
     const MemoryKey key;
-    const int code = run_fleet(make_plan(options, configuration.scenario, key.path(), outputs.directory(), journal));
+    const int code = run_fleet(make_plan(options, configuration.scenario, key.path(), outputs.directory(), journal,
+                                         ros2 ? ros2->socket() : -1));
     std::error_code ignored;
     std::filesystem::remove(journal, ignored);
     outputs.abandon();  // if the hub has written nothing
@@ -200,6 +207,7 @@ void add_fleet(CLI::App& command, CommandAction& action) {
       ->type_name("WHO")
       ->check(CLI::IsMember({"auto", "netem", "relay"}).description(""));
   add_page_beside(command, *options);
+  add_ros2(command, *options);
   command.add_flag("--loopback", options->loopback, "no network namespaces: all share the loopback device");
   command.add_flag("!--no-restart", options->restart, "do not restart robots that have ended");
   command.callback([options, &action] { action = [options] { return fleet_command(*options); }; });

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <random>
 #include <thread>
 
@@ -24,6 +25,7 @@
 #include "keep_run.hpp"
 #include "options.hpp"
 #include "page_beside.hpp"
+#include "ros2_beside.hpp"
 #include "terminal.hpp"
 #include "tracked_bodies.hpp"
 
@@ -43,6 +45,8 @@ struct HubOptions {
   double speed = 1.0;
   std::size_t bundle = 1;     // packets heard per datagram
   bool view = false;          // the page beside it
+  bool ros2 = false;          // shown in ROS 2
+  int ros2_socket = -1;       // likewise, by what a fleet has started; -1: by nothing
   std::string impairment;     // a line of the summary: what makes the radio bad, and how
   bool print_robots = false;  // their command lines, instead
   std::string new_key;        // make this file, instead
@@ -85,13 +89,16 @@ std::string list_of(const std::vector<std::size_t>& robots) {
 // What takes the place of World::step's own robots: waits for the moment of each tick.
 class Conductor {
  public:
-  // `tracker`: null if bodies are simulated.
-  Conductor(udp::Hub& hub, udp::PoseStream* tracker, udp::KeyFile& keys, const HubOptions& options)
-      : hub_(hub), tracker_(tracker), keys_(keys), options_(options) {}
+  // `tracker`: null if bodies are simulated. `ros2`: nobody is told if it has no socket.
+  Conductor(udp::Hub& hub, udp::PoseStream* tracker, udp::KeyFile& keys, const HubOptions& options,
+            const Ros2Mission& ros2)
+      : hub_(hub), tracker_(tracker), keys_(keys), options_(options), ros2_(ros2) {}
 
   record::RunEnd operator()(world::World world, record::Sink& sink, world::Executor& executor,
                             const record::GoOn& go_on) {
-    record::Simulation simulation(std::move(world), sink);
+    std::optional<Ros2Sink> ros2;
+    if (ros2_.socket >= 0) ros2.emplace(sink, ros2_);
+    record::Simulation simulation(std::move(world), ros2 ? *ros2 : sink);
     const auto stopped = [&] { return !go_on(simulation); };
     simulation.stop_when(stopped);
     if (tracker_ != nullptr) hub_.watch(*tracker_, [&] { see(stopped); });
@@ -101,6 +108,7 @@ class Conductor {
       if (stopped()) return end(simulation, true);
       refresh_keys();
       for (const std::size_t robot : dead) bury(simulation, robot);
+      if (ros2) ros2->heed(simulation);
       simulation.step(executor);
     }
     return end(simulation, false);
@@ -151,6 +159,7 @@ class Conductor {
   udp::PoseStream* tracker_;
   udp::KeyFile& keys_;
   const HubOptions& options_;
+  Ros2Mission ros2_;
 };
 
 std::string remarks_on(const udp::HubCounts& counts, const std::string& impairment) {
@@ -220,6 +229,10 @@ int play_scenario(const HubOptions& options) {
   const RunOutputs outputs(configuration, options.run.out, options.run.force || options.resume);
   PageBeside page = options.view ? PageBeside(outputs, configuration.output) : PageBeside();
   try {
+    std::optional<Ros2Beside> ros2;
+    if (options.ros2) ros2.emplace();
+    const Ros2Mission mission{ros2 ? ros2->socket() : options.ros2_socket, configuration,
+                              tracker ? RosWorld::real : RosWorld::simulated, journal ? journal->recorded().size() : 0};
     const udp::HubSettings hub_options{udp::parse_address(options.listen), scenario.tick_s, options.speed,
                                        options.dead_after_s, options.bundle};
     udp::Hub hub(hub_options, robots, keys.keys(), journal.get());
@@ -230,7 +243,8 @@ int play_scenario(const HubOptions& options) {
     run.threads = 1;
     world::World world = make_world(scenario, remote, tracker.get());
     const int code = keep_run(
-        configuration, outputs, run, [&] { return std::move(world); }, Conductor(hub, tracker.get(), keys, options),
+        configuration, outputs, run, [&] { return std::move(world); },
+        Conductor(hub, tracker.get(), keys, options, mission),
         [&] { return remarks_on(hub.counts(), options.impairment); });
     page.stay();
     return code;
@@ -332,6 +346,8 @@ void add_hub(CLI::App& command, CommandAction& action) {
   add_results(command, options->run);
   add_pace(command, *options);
   add_page_beside(command, *options);
+  add_ros2(command, *options);
+  command.add_option("--ros2-socket", options->ros2_socket, "of a fleet's --ros2")->group("");
   command.callback([options, &action] { action = [options] { return hub_command(*options); }; });
 }
 

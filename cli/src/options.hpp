@@ -50,6 +50,11 @@ template <class Options> void add_page_beside(CLI::App& command, Options& option
   command.add_flag("--view", options.view, "show it live in the browser; the page stays until Ctrl-C");
 }
 
+// Of what has `ros2`.
+template <class Options> void add_ros2(CLI::App& command, Options& options) {
+  command.add_flag("--ros2", options.ros2, "show it in ROS 2, which may add targets and kill robots (docs/ros2.md)");
+}
+
 // How long robots may be silent, at first and later.
 template <class Options> void add_patience(CLI::App& command, Options& options) {
   command.add_option("--wait", options.wait_s, "how long to wait for robots at first, s; default 10")

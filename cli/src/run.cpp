@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -17,6 +18,7 @@
 #include "link.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "ros2_beside.hpp"
 #include "shipped.hpp"
 #include "summary.hpp"
 #include "terminal.hpp"
@@ -157,7 +159,12 @@ int keep_run(const Configuration& configuration, const RunOutputs& outputs, cons
 
 namespace {
 
-int run_command(const RunOptions& options) {
+struct RunCommand : RunOptions {
+  bool ros2 = false;  // shown in ROS 2, and so in real time
+  double speed = 1.0;
+};
+
+int run_command(const RunCommand& options) {
   const auto loaded = load_or_leave(options);
   if (!loaded.ok()) return exit_usage;
   const Configuration& configuration = loaded.configuration;
@@ -165,8 +172,11 @@ int run_command(const RunOptions& options) {
 
   const RunOutputs outputs(configuration, options.out, options.force);
   try {
+    std::optional<Ros2Beside> ros2;
+    if (options.ros2) ros2.emplace();
+    const Play play = ros2 ? played_in_ros2({ros2->socket(), configuration}, options.speed) : record::run_scenario;
     return keep_run(
-        configuration, outputs, options, [&] { return world::World(configuration.scenario); }, record::run_scenario);
+        configuration, outputs, options, [&] { return world::World(configuration.scenario); }, play);
   } catch (...) {
     outputs.abandon();
     throw;
@@ -176,7 +186,7 @@ int run_command(const RunOptions& options) {
 }  // namespace
 
 void add_run(CLI::App& command, CommandAction& action) {
-  auto options = std::make_shared<RunOptions>();
+  auto options = std::make_shared<RunCommand>();
   command.footer(
       "Writes run.mcap (the recording), run.csv (one row) and run.json (the same with the whole\n"
       "configuration; `banyan run out/.../run.json` runs it again).\n\n"
@@ -205,6 +215,11 @@ void add_run(CLI::App& command, CommandAction& action) {
                   "threads within the run, default 1, or all cores from 500 robots on; never changes the result")
       ->type_name("N")
       ->check(whole_within(1, 256));
+  add_ros2(command, *options);
+  command.add_option("--speed", options->speed, "with --ros2: how many times faster than real time, default 1")
+      ->type_name("X")
+      ->check(number_within(0.01, 100.0))
+      ->needs("--ros2");
   command.callback([options, &action] { action = [options] { return run_command(*options); }; });
 }
 

@@ -24,11 +24,9 @@ class RosLaboratory : public StartedProcesses {
     hub_address_ = "127.0.0.1:" + std::to_string(port);
     poses_ = "127.0.0.1:" + std::to_string(port + 1);
     first_base_ = port + 2;
-    // Ports that neither free_port() nor the system hands out.
-    const std::string domain = std::to_string(91 + ::getpid() % 10);
     bodies_ =
-        shell(std::string(BANYAN_ROS2_PEER) + " 9 " + domain + " 5 " + peer_options + " >peer.txt 2>peer-errors.txt");
-    bridge_ = shell(std::string(BANYAN_ROS2) + " --localhost --robots 9 --domain " + domain + " --poses " + poses_ +
+        shell(std::string(BANYAN_ROS2_PEER) + " 9 " + domain_ + " 5 " + peer_options + " >peer.txt 2>peer-errors.txt");
+    bridge_ = shell(std::string(BANYAN_ROS2) + " --localhost --robots 9 --domain " + domain_ + " --poses " + poses_ +
                     " --bases 127.0.0.1:" + std::to_string(first_base_) + " " + bridge_options + " 2>bridge.txt");
     ASSERT_TRUE(becomes([&] { return answers(first_base_ + count - 1); })) << read("bridge.txt");
     for (int i = 0; i < count; ++i) robots_.push_back(start_robot(i));
@@ -92,6 +90,8 @@ class RosLaboratory : public StartedProcesses {
     std::smatch found;
     return std::regex_search(account, found, std::regex("([0-9]+) " + what)) ? std::stoul(found[1]) : 0;
   }
+  // Whose ports neither free_port() nor the system hands out.
+  const std::string domain_ = std::to_string(91 + ::getpid() % 10);
   std::string hub_address_, poses_;
   int first_base_ = 0;
   pid_t bodies_ = 0, bridge_ = 0;
@@ -180,6 +180,22 @@ TEST_F(RosLaboratory, ARobotThatIsKilledStandsStillAndComesAgain) {
   EXPECT_TRUE(said.contains("node / laboratory: 18 readers, 9 writers, 0 unknown"));
   EXPECT_FALSE(said.contains("writer rt/tf tf2_msgs::msg::dds_::TFMessage_ reliable volatile"));
   EXPECT_GT(counted("of odometry"), 9U * 50U);
+}
+
+// The mission in ROS 2, beside robots and tracker that are there already: it has no clock and no frames of its own.
+TEST_F(RosLaboratory, AHubWithATrackerShowsAllButTheBodies) {
+  open("pose", "--no-tf");
+  Arguments arguments = hub();
+  arguments.emplace_back("--ros2");
+  const Circumstances in_domain{.environment = {{"ROS_DOMAIN_ID", domain_}, {"ROS_LOCALHOST_ONLY", "1"}}};
+  expect_complete(finish(start(arguments, in_domain)));
+  const auto said = close();
+  EXPECT_TRUE(said.contains("writer rt/markers visualization_msgs::msg::dds_::MarkerArray_ reliable volatile"));
+  EXPECT_TRUE(said.contains("writer rt/diagnostics diagnostic_msgs::msg::dds_::DiagnosticArray_ reliable volatile"));
+  for (const std::string& line : said) {
+    EXPECT_FALSE(line.starts_with("writer rt/clock") || line.starts_with("writer rt/tf")) << line;
+    EXPECT_FALSE(line.starts_with("writer") && has(line, "Odometry_")) << line;
+  }
 }
 
 // Ctrl-C at the bridge while robots drive: they are told to stand still, and those who drive them lose their bases.

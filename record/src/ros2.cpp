@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <initializer_list>
+#include <numbers>
 #include <utility>
 
 #include "banyan/controller/core/trig.hpp"
@@ -472,9 +473,94 @@ void write_markers(CdrWriter& out, const Stamp& stamp, const Setting& setting, c
   markers.finish();
 }
 
+void write_odometry(CdrWriter& out, const Stamp& stamp, std::size_t robot, const RobotFrame& now,
+                    const RobotFrame& before, double elapsed_s) {
+  constexpr int covariances = 36;
+  const auto put_zeros = [&](int count) {
+    for (int k = 0; k < count; ++k) out.real(0.0);
+  };
+  std::string body;
+  name_body(body, stamp.body, robot);
+  Vec2 velocity;
+  double turn_rad_s = 0.0;
+  if (elapsed_s > 0.0) {
+    const Vec2 ahead = unit_vector(now.heading_rad), moved = (1.0 / elapsed_s) * (now.position - before.position);
+    velocity = {dot(moved, ahead), cross(ahead, moved)};
+    turn_rad_s = std::remainder(now.heading_rad - before.heading_rad, 2.0 * std::numbers::pi) / elapsed_s;
+  }
+  out.clear();
+  put_header(out, stamp);
+  out.string(body);
+  put_xyz(out, now.position.x, now.position.y, 0.0);
+  put_turn(out, now.heading_rad);
+  put_zeros(covariances);
+  put_xyz(out, velocity.x, velocity.y, 0.0);
+  put_xyz(out, 0.0, 0.0, turn_rad_s);
+  put_zeros(covariances);
+}
+
+void write_clock(CdrWriter& out, const Stamp& stamp) {
+  out.clear();
+  out.time(stamp.nanoseconds);
+}
+
+std::vector<Diagnosis> diagnose(const measure::Tick& tick, std::size_t robots) {
+  using Level = Diagnosis::Level;
+  const auto number = [](std::size_t value) { return std::to_string(value); };
+  const std::size_t broken = tick.broken_by_distance + tick.broken_by_occlusion + tick.broken_by_death;
+  const std::size_t dead = robots - std::min<std::size_t>(robots, tick.alive);
+  const std::string held = number(tick.targets_reached) + " of " + number(tick.active_targets) + " targets held";
+  std::vector<Diagnosis> parts{{Level::ok, "banyan: mission", tick.complete() ? "complete" : held, {}},
+                               {Level::ok, "banyan: network", "in one part", {}},
+                               {Level::ok, "banyan: robots", "all alive", {}}};
+  Diagnosis &mission = parts[0], &network = parts[1], &bodies = parts[2];
+  mission.values = {{"complete", tick.complete() ? "true" : "false"},
+                    {"targets", number(tick.active_targets)},
+                    {"targets held", number(tick.targets_reached)}};
+  if (tick.components > 1) {
+    network.level = Level::error;
+    network.message = "in " + number(tick.components) + " parts";
+  } else if (broken > 0) {
+    network.level = Level::warning;
+    network.message = number(broken) + (broken == 1 ? " broken edge" : " broken edges");
+  }
+  network.values = {
+      {"parts", number(tick.components)}, {"edges", number(tick.edges)}, {"broken edges", number(broken)}};
+  if (tick.alive == 0) {
+    bodies.level = Level::error;
+    bodies.message = "none alive";
+  } else if (dead > 0 || tick.roots > 1) {
+    bodies.level = Level::warning;
+    bodies.message = dead > 0 ? number(dead) + " of " + number(robots) + " dead" : number(tick.roots) + " roots";
+  }
+  bodies.values = {
+      {"robots", number(robots)},        {"alive", number(tick.alive)},           {"roots", number(tick.roots)},
+      {"workers", number(tick.workers)}, {"connectors", number(tick.connectors)}, {"spares", number(tick.spares)}};
+  return parts;
+}
+
+void write_diagnostics(CdrWriter& out, const Stamp& stamp, std::span<const Diagnosis> parts) {
+  out.clear();
+  out.time(stamp.nanoseconds);
+  out.string("");  // frame_id
+  out.natural(static_cast<std::uint32_t>(parts.size()));
+  for (const Diagnosis& part : parts) {
+    out.octet(static_cast<std::uint8_t>(part.level));
+    out.string(part.name);
+    out.string(part.message);
+    out.string("");  // hardware_id
+    out.natural(static_cast<std::uint32_t>(part.values.size()));
+    for (const auto& [key, value] : part.values) {
+      out.string(key);
+      out.string(value);
+    }
+  }
+}
+
 void write_log(CdrWriter& out, const Stamp& stamp, const RecordedEvent& event) {
   constexpr std::uint8_t info = 20, warning = 30;
-  const bool bad = event.kind == "death" || event.kind == "split" || event.kind == "edges_broken";
+  const bool bad =
+      event.kind == "death" || event.kind == "split" || event.kind == "edges_broken" || event.kind == "refused";
   out.clear();
   out.time(stamp.nanoseconds);
   out.octet(bad ? warning : info);

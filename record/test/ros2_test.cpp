@@ -124,6 +124,92 @@ TEST(Ros2Messages, TransformsAreWhereRobotsAreAlsoTheDead) {
   }
 }
 
+// From the public definitions, of which nothing else of ours has these.
+const std::string parts_of_odometry =
+    "================\nMSG: std_msgs/Header\ntime stamp\nstring frame_id\n"
+    "================\nMSG: time\nint32 sec\nuint32 nanosec\n"
+    "================\nMSG: pose36\npose pose\n================\nMSG: pose\nxyz position\nxyzw orientation\n"
+    "================\nMSG: xyz\nfloat64 x\nfloat64 y\nfloat64 z\n"
+    "================\nMSG: xyzw\nfloat64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"
+    "================\nMSG: twist\nxyz linear\nxyz angular\n";
+
+std::string covariance(const std::string& name) {
+  std::string fields;
+  for (int k = 0; k < 36; ++k) fields += "float64 " + name + std::to_string(k) + "\n";
+  return fields;
+}
+
+// It looks to the west across the cut of angles, and slides to its right while it turns.
+TEST(Ros2Messages, OdometryHasTheSpeedInTheRobotsOwnFrame) {
+  const ros2::MessageType type{"nav_msgs/msg/Odometry", "std_msgs/Header header\nstring child_frame_id\npose pose\n" +
+                                                            covariance("p") + "twist twist\n" + covariance("t") +
+                                                            parts_of_odometry};
+  RobotFrame before, now;
+  before.position = {1.0, 2.0};
+  before.heading_rad = 3.1;
+  now.position = {1.0, 2.05};  // 0.5 m/s to the north
+  now.heading_rad = -pi<double>;
+  ros2::CdrWriter out;
+  write_odometry(out, {.nanoseconds = 1500000000}, 7, now, before, 0.1);
+  const json odometry = Decoder(type).decode(out.view());
+  EXPECT_EQ(odometry["header"], (json{{"stamp", {{"sec", 1}, {"nanosec", 500000000}}}, {"frame_id", "map"}}));
+  EXPECT_EQ(odometry["child_frame_id"], "robot_7/base_link");
+  EXPECT_NEAR(odometry["pose"]["position"]["y"].get<double>(), 2.05, 1e-9);
+  EXPECT_NEAR(std::abs(odometry["pose"]["orientation"]["z"].get<double>()), 1.0, 1e-4);
+  EXPECT_NEAR(odometry["twist"]["linear"]["x"].get<double>(), 0.0, 1e-6);
+  EXPECT_NEAR(odometry["twist"]["linear"]["y"].get<double>(), -0.5, 1e-6);
+  EXPECT_NEAR(odometry["twist"]["angular"]["z"].get<double>(), (pi<double> - 3.1) / 0.1, 1e-6);
+  for (const char* zero : {"p0", "p35", "t0", "t35"}) EXPECT_EQ(odometry[zero], 0.0);
+  write_odometry(out, {}, 7, now, before, 0.0);
+  EXPECT_EQ(Decoder(type).decode(out.view())["twist"]["linear"]["y"], 0.0);
+}
+
+TEST(Ros2Messages, TheClockIsATime) {
+  ros2::CdrWriter out;
+  write_clock(out, {.nanoseconds = 61000000007});
+  const json clock = Decoder({"rosgraph_msgs/msg/Clock", "int32 sec\nuint32 nanosec\n"}).decode(out.view());
+  EXPECT_EQ(clock, (json{{"sec", 61}, {"nanosec", 7}}));
+}
+
+TEST(Ros2Messages, DiagnosesSayWhatIsWrongAndHowBadItIs) {
+  using Level = ros2::Diagnosis::Level;
+  measure::Tick tick;
+  tick.alive = 9;
+  tick.roots = tick.components = tick.tree_parts = 1;
+  tick.active_targets = 3;
+  const auto levels = [&] {
+    std::vector<Level> list;
+    for (const auto& part : ros2::diagnose(tick, 9)) list.push_back(part.level);
+    return list;
+  };
+  EXPECT_EQ(levels(), (std::vector{Level::ok, Level::ok, Level::ok}));
+  EXPECT_EQ(ros2::diagnose(tick, 9)[0].message, "0 of 3 targets held");
+  tick.targets_reached = 3;
+  EXPECT_EQ(ros2::diagnose(tick, 9)[0].message, "complete");
+  tick.broken_by_occlusion = 1;
+  tick.alive = 7;
+  EXPECT_EQ(levels(), (std::vector{Level::ok, Level::warning, Level::warning}));
+  EXPECT_EQ(ros2::diagnose(tick, 9)[1].message, "1 broken edge");
+  EXPECT_EQ(ros2::diagnose(tick, 9)[2].message, "2 of 9 dead");
+  tick.components = 2;
+  EXPECT_EQ(ros2::diagnose(tick, 9)[1].message, "in 2 parts");
+  tick.alive = 0;
+  EXPECT_EQ(levels(), (std::vector{Level::ok, Level::error, Level::error}));
+
+  ros2::CdrWriter out;
+  write_diagnostics(out, {.nanoseconds = 1000000002}, ros2::diagnose(tick, 9));
+  const json array = Decoder({"diagnostic_msgs/msg/DiagnosticArray",
+                              "std_msgs/Header header\nstatus[] status\n" + parts_of_odometry +
+                                  "================\nMSG: status\nuint8 level\nstring name\nstring message\nstring "
+                                  "hardware_id\nvalue[] values\n"
+                                  "================\nMSG: value\nstring key\nstring value\n"})
+                         .decode(out.view());
+  ASSERT_EQ(array["status"].size(), 3U);
+  EXPECT_EQ(array["status"][1]["level"], 2);
+  EXPECT_EQ(array["status"][1]["name"], "banyan: network");
+  EXPECT_EQ(array["status"][2]["values"][0], (json{{"key", "robots"}, {"value", "9"}}));
+}
+
 TEST(Ros2Messages, MarkersBeginByDeletingAndHaveIdsOfTheirOwn) {
   const json markers = markers_of(test::sample_setting(), test::sample_frame(30, 3.0, 7));
   EXPECT_EQ(markers[0]["action"], 3);

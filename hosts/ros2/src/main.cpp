@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// banyan-ros2: robots and tracker of ROS 2 for banyan hub and banyan-robot. A program of its own, so that nothing else
-// needs DDS.
+// banyan-ros2: robots and tracker of ROS 2 for banyan hub and banyan-robot, and missions for ROS 2. A program of its
+// own, so that nothing else needs DDS.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -9,6 +9,7 @@
 
 #include "banyan/controller/core/printable.hpp"
 #include "banyan/hosts/ros2/bridge.hpp"
+#include "banyan/hosts/ros2/swarm.hpp"
 
 int main(int argc, char** argv) {
   using namespace banyan;
@@ -21,7 +22,8 @@ int main(int argc, char** argv) {
       return 0;
     }
     const ros2::Environment environment = [](const char* name) -> const char* { return std::getenv(name); };
-    return ros2::run_bridge(ros2::parse_options(arguments, environment));
+    const ros2::Options options = ros2::parse_options(arguments, environment);
+    return options.swarm >= 0 ? ros2::show_swarm(options) : ros2::run_bridge(options);
   } catch (const udp::OptionError& error) {
     std::fprintf(stderr, "banyan-ros2: %s\n", printable_lines(error.what()).c_str());
     return bad_usage;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/hosts/ros2/options.hpp"
 
+#include <cctype>
+#include <sstream>
+
 #include "banyan/hosts/ros2/names.hpp"
 #include "banyan/hosts/udp/command_line.hpp"
 
@@ -36,8 +39,26 @@ void add_options(CLI::App& app, Options& o) {
   add_number(app, "--domain", o.domain, 0, largest_domain, "DDS domain; default ROS_DOMAIN_ID, otherwise 0", true);
   add_flag(app, "--localhost", o.localhost, true,
            "talk to this computer alone, as with ROS_LOCALHOST_ONLY=1 or ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST");
-  add_flag(app, "--humble", o.humble, true,
-           "be seen by ros2 node list of ROS 2 Humble and older, and not by newer ones");
+  add_flag(
+      app, "--humble", o.humble, true,
+      "be seen by ros2 node list of ROS 2 Humble and older, and not by newer ones; so if ROS_DISTRO is one of them");
+  app.add_option("--swarm", o.swarm)->group("");  // of banyan run --ros2, which starts this
+}
+
+// As ROS 2 has them: separated by semicolons.
+std::vector<std::string> peers_of(const std::string& list) {
+  std::vector<std::string> peers;
+  std::istringstream words(list);
+  for (std::string peer; std::getline(words, peer, ';');) {
+    if (peer.empty()) continue;
+    for (const char c : peer)
+      if (std::isalnum(static_cast<unsigned char>(c)) == 0 &&
+          std::string_view(".-_:").find(c) == std::string_view::npos)
+        throw OptionError("ROS_STATIC_PEERS has \"" + peer +
+                          "\", which is no address; expected are addresses with ; between them");
+    peers.push_back(peer);
+  }
+  return peers;
 }
 
 // What the environment says comes first, as options that are given may say otherwise.
@@ -53,6 +74,9 @@ Options from_environment(const Environment& environment) {
     options.domain = static_cast<std::uint32_t>(std::strtod(domain.c_str(), nullptr));
   }
   options.localhost = value("ROS_LOCALHOST_ONLY") == "1" || value("ROS_AUTOMATIC_DISCOVERY_RANGE") == "LOCALHOST";
+  options.peers = peers_of(value("ROS_STATIC_PEERS"));
+  const std::string distribution = value("ROS_DISTRO");
+  for (const char* old : {"foxy", "galactic", "humble"}) options.humble |= distribution == old;
   return options;
 }
 
@@ -99,6 +123,10 @@ Options parse_options(std::span<const std::string> arguments, const Environment&
   if (app.count("--id") > 0) {
     if (options.robots > 0) throw OptionError("--robots and --id exclude each other: give one of the two");
     options.robots = 1;
+  }
+  if (options.swarm >= 0) {
+    options.node = "banyan";
+    return options;
   }
   if (options.pose_topic.empty() && options.odometry_topic.empty()) options.pose_topic = "/robot_{}/pose";
   check(options);

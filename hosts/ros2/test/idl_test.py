@@ -18,8 +18,8 @@ from rosidl_adapter.msg import convert_msg_to_idl
 
 SHARE = pathlib.Path("/usr/share")
 ORIGINALS = {
-    "std_msgs": ["Header"],
-    "geometry_msgs": ["Point", "Quaternion", "Pose", "PoseStamped", "PoseWithCovariance", "Vector3", "Twist",
+    "std_msgs": ["Header", "String"],
+    "geometry_msgs": ["Point", "PointStamped", "Quaternion", "Pose", "PoseStamped", "PoseWithCovariance", "Vector3", "Twist",
                       "TwistStamped", "TwistWithCovariance", "Transform", "TransformStamped"],
     "nav_msgs": ["Odometry"],
     "tf2_msgs": ["TFMessage"],

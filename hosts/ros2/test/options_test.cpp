@@ -48,7 +48,22 @@ TEST(Ros2Options, TheEnvironmentOfRos2) {
   EXPECT_FALSE(parsed(few, {{"ROS_LOCALHOST_ONLY", "0"}}).localhost);
   EXPECT_TRUE(parsed(few, {{"ROS_LOCALHOST_ONLY", "1"}}).localhost);
   EXPECT_TRUE(parsed(few, {{"ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST"}}).localhost);
+  EXPECT_EQ(parsed(few, {{"ROS_STATIC_PEERS", "192.168.1.20;;robot-3.local"}}).peers,
+            (std::vector<std::string>{"192.168.1.20", "robot-3.local"}));
+  EXPECT_EQ(fault(few, {{"ROS_STATIC_PEERS", "10.0.0.1;\"/>"}}),
+            "ROS_STATIC_PEERS has \"\"/>\", which is no address; expected are addresses with ; between them");
+  EXPECT_TRUE(parsed(few, {{"ROS_DISTRO", "humble"}}).humble);
+  EXPECT_FALSE(parsed(few, {{"ROS_DISTRO", "jazzy"}}).humble);
   EXPECT_EQ(fault(few, {{"ROS_DOMAIN_ID", "1000"}}), "ROS_DOMAIN_ID must be a number from 0 to 232, not \"1000\"");
+}
+
+// A mission that starts it knows how many robots there are, and has no hub or bases to be told of.
+TEST(Ros2Options, OfAMissionNothingElseIsAsked) {
+  const Options options = parsed({"--swarm", "7"}, {{"ROS_DOMAIN_ID", "42"}});
+  EXPECT_EQ(options.swarm, 7);
+  EXPECT_EQ(options.domain, 42U);
+  EXPECT_EQ(options.node, "banyan");
+  EXPECT_EQ(usage().find("--swarm"), std::string::npos);
 }
 
 TEST(Ros2Options, WhatIsWrongIsSaid) {

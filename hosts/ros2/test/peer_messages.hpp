@@ -44,13 +44,17 @@ struct Odometry {  // nav_msgs/Odometry
   Pose pose;
   void write(Cdr& to) const {
     const std::array<double, 36> covariance{};
-    const std::array<double, 6> twist{};
     header.write(to);
     to << child_frame_id;
     pose.write(to);
     to << covariance << twist << covariance;
   }
-  void read(Cdr& /*from*/) {}
+  void read(Cdr& from) {
+    std::array<double, 36> covariance{};
+    header.read(from);
+    from >> child_frame_id >> pose.values >> covariance >> twist >> covariance;
+  }
+  std::array<double, 6> twist{};  // linear x y z, angular x y z
 };
 struct Twist {  // linear x y z, angular x y z
   static constexpr const char* type = "geometry_msgs::msg::dds_::Twist_";
@@ -85,6 +89,102 @@ struct TFMessage {
       t.header.read(from);
       from >> t.child_frame_id >> t.values;
     }
+  }
+};
+struct Clock {  // rosgraph_msgs/Clock
+  static constexpr const char* type = "rosgraph_msgs::msg::dds_::Clock_";
+  std::int32_t sec = 0;
+  std::uint32_t nanosec = 0;
+  void write(Cdr& /*to*/) const {}
+  void read(Cdr& from) { from >> sec >> nanosec; }
+};
+struct PointStamped {
+  static constexpr const char* type = "geometry_msgs::msg::dds_::PointStamped_";
+  Header header;
+  std::array<double, 3> values{};
+  void write(Cdr& to) const {
+    header.write(to);
+    to << values;
+  }
+  void read(Cdr& /*from*/) {}
+};
+struct String {
+  static constexpr const char* type = "std_msgs::msg::dds_::String_";
+  std::string data;
+  void write(Cdr& to) const { to << data; }
+  void read(Cdr& /*from*/) {}
+};
+struct Log {  // rcl_interfaces/Log
+  static constexpr const char* type = "rcl_interfaces::msg::dds_::Log_";
+  std::int32_t sec = 0;
+  std::uint32_t nanosec = 0, line = 0;
+  std::uint8_t level = 0;
+  std::string name, text, file, function;
+  void write(Cdr& /*to*/) const {}
+  void read(Cdr& from) { from >> sec >> nanosec >> level >> name >> text >> file >> function >> line; }
+};
+struct DiagnosticArray {
+  static constexpr const char* type = "diagnostic_msgs::msg::dds_::DiagnosticArray_";
+  struct Status {
+    std::uint8_t level = 0;
+    std::string name, message, hardware_id;
+    std::vector<std::array<std::string, 2>> values;
+  };
+  Header header;
+  std::vector<Status> list;
+  void write(Cdr& /*to*/) const {}
+  void read(Cdr& from) {
+    std::uint32_t count = 0;
+    header.read(from);
+    from >> count;
+    list.assign(count, {});
+    for (Status& status : list) {
+      from >> status.level >> status.name >> status.message >> status.hardware_id >> count;
+      status.values.assign(count, {});
+      for (auto& [key, value] : status.values) from >> key >> value;
+    }
+  }
+};
+struct MarkerArray {  // visualization_msgs, since ROS 2 Humble
+  static constexpr const char* type = "visualization_msgs::msg::dds_::MarkerArray_";
+  struct Marker {
+    Header header, texture_header;
+    std::string ns, texture_resource, texture_format, text, mesh_resource, mesh_filename;
+    std::int32_t id = 0, type = 0, action = 0, lifetime_sec = 0;
+    std::uint32_t lifetime_nanosec = 0;
+    std::array<double, 7> pose{};
+    std::array<double, 3> scale{};
+    std::array<float, 4> color{};
+    bool frame_locked = false, mesh_use_embedded_materials = false;
+    std::vector<std::array<double, 3>> points;
+    std::vector<std::array<float, 4>> colors;
+    std::vector<std::array<float, 2>> uv_coordinates;
+    std::vector<std::uint8_t> texture_data, mesh_data;
+    void read(Cdr& from) {
+      header.read(from);
+      from >> ns >> id >> type >> action >> pose >> scale >> color >> lifetime_sec >> lifetime_nanosec >> frame_locked;
+      read_list(from, points);
+      read_list(from, colors);
+      from >> texture_resource;
+      texture_header.read(from);
+      from >> texture_format >> texture_data;
+      read_list(from, uv_coordinates);
+      from >> text >> mesh_resource >> mesh_filename >> mesh_data >> mesh_use_embedded_materials;
+    }
+    template <class List> static void read_list(Cdr& from, List& list) {
+      std::uint32_t count = 0;
+      from >> count;
+      list.assign(count, {});
+      for (auto& one : list) from >> one;
+    }
+  };
+  std::vector<Marker> markers;
+  void write(Cdr& /*to*/) const {}
+  void read(Cdr& from) {
+    std::uint32_t count = 0;
+    from >> count;
+    markers.assign(count, {});
+    for (Marker& marker : markers) marker.read(from);
   }
 };
 // Size: of an identifier, 24 bytes in ROS 2 Humble and older, 16 since.
@@ -150,7 +250,7 @@ template <class Message> class DataType final : public eprosima::fastdds::dds::T
   }
 
  private:
-  static constexpr std::uint32_t largest = 16384;
+  static constexpr std::uint32_t largest = 1U << 20U;
 };
 
 }  // namespace banyan::ros2::peer

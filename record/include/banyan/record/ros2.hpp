@@ -4,9 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
+#include "banyan/measure/tick.hpp"
 #include "banyan/record/draw.hpp"
 #include "banyan/record/frame.hpp"
 #include "banyan/record/mcap.hpp"
@@ -73,7 +77,27 @@ void write_transforms(CdrWriter& out, const Stamp& stamp, const Frame& frame);
 void write_markers(CdrWriter& out, const Stamp& stamp, const Setting& setting, const Frame& frame,
                    const RadioLinks* links = nullptr);
 
-// Deaths, splits and broken edges are warnings. The name is that of the event after "banyan.".
+// Where a robot is in the map, and how it has moved since `before`, in its own frame; `elapsed_s` 0: it stands still.
+// Exact, so all covariances are 0.
+void write_odometry(CdrWriter& out, const Stamp& stamp, std::size_t robot, const RobotFrame& now,
+                    const RobotFrame& before, double elapsed_s);
+
+void write_clock(CdrWriter& out, const Stamp& stamp);  // rosgraph_msgs/msg/Clock
+
+// A part of a mission, as rqt_robot_monitor and Foxglove list them.
+struct Diagnosis {
+  enum class Level : std::uint8_t { ok = 0, warning = 1, error = 2 };
+  Level level = Level::ok;
+  std::string name, message;
+  std::vector<std::pair<std::string, std::string>> values;
+};
+// Of the mission, the network and the robots, in this order. An error is a network in several parts, or without a root
+// or a living robot.
+[[nodiscard]] std::vector<Diagnosis> diagnose(const measure::Tick& tick, std::size_t robots);
+void write_diagnostics(CdrWriter& out, const Stamp& stamp,
+                       std::span<const Diagnosis> parts);  // diagnostic_msgs/msg/DiagnosticArray
+
+// Deaths, splits, broken edges and what was refused are warnings. The name is that of the event after "banyan.".
 void write_log(CdrWriter& out, const Stamp& stamp, const RecordedEvent& event);
 
 }  // namespace banyan::record::ros2

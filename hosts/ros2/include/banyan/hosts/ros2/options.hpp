@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The command line of banyan-ros2, with what a ROS 2 environment says (ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY and
-// ROS_AUTOMATIC_DISCOVERY_RANGE).
+// The command line of banyan-ros2, with what a ROS 2 environment says (ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY,
+// ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and ROS_DISTRO).
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "banyan/hosts/udp/option_error.hpp"
 
@@ -29,7 +30,9 @@ struct Options {
   std::string node = "banyan_ros2";
   std::uint32_t domain = 0;
   bool localhost = false;
-  bool humble = false;  // ros_discovery_info as in ROS 2 Humble and older
+  std::vector<std::string> peers;  // addresses at which others are looked for, beside multicast; not with localhost
+  bool humble = false;             // ros_discovery_info as in ROS 2 Humble and older
+  int swarm = -1;                  // the socket of a mission that is to be shown, instead of all else; -1: none
 };
 
 using Environment = std::function<const char*(const char*)>;  // as std::getenv
