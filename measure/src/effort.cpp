@@ -39,7 +39,7 @@ void Effort::observe(const world::World& world) {
   std::copy(alive.begin(), alive.end(), alive_.begin());
 }
 
-void Effort::sum_up(const Moment& end, Row& row) const {
+void Effort::sum_up(const Moment& /*end*/, Row& row) const {
   row.decisions = decisions_;
   row.driven_m = driven_m_ / static_cast<double>(at_start_);
 }
