@@ -76,9 +76,14 @@ class Ears {
       const udp::FleetChanges changes =
           listener_.wait_for(static_cast<std::uint32_t>(simulation.world().tick()), stopped);
       if (stopped()) return simulation.finish(true);
-      for (const std::size_t robot : changes.dead) happen(simulation, world::Die{robot});
-      for (const std::size_t robot : changes.joined)
+      for (const std::size_t robot : changes.dead) {
+        complain(at(simulation, robot) + " has fallen silent and counts as dead");
+        happen(simulation, world::Die{robot});
+      }
+      for (const std::size_t robot : changes.joined) {
+        complain(at(simulation, robot) + " has joined");
         happen(simulation, world::Join{robot, listener_.chart().poses()[robot]->position});
+      }
       for (std::size_t k = 0; k < workers_.size(); ++k) look_at_target(simulation, k);
       simulation.step(executor);
     }
@@ -89,6 +94,9 @@ class Ears {
   static std::size_t living(const world::World& world) {
     const auto alive = world.alive();
     return static_cast<std::size_t>(std::count_if(alive.begin(), alive.end(), [](auto a) { return a != 0; }));
+  }
+  [[nodiscard]] std::string at(const record::Simulation& simulation, std::size_t robot) const {
+    return format("%.1f s: robot ", simulation.world().time_s()) + listener_.roster().name(robot);
   }
   static void happen(record::Simulation& simulation, const world::Action& action) {
     world::Event event;

@@ -800,6 +800,43 @@ TEST_F(WithoutAHub, TheirMissionIsRecordedByWhatTheyTell) {
           "there was no place for robot 0, 1, 2"));
 }
 
+// One comes later, with an id of which neither the others nor whoever listens know anything.
+TEST_F(WithoutAHub, WhoeverJoinsTakesPartAndIsRecorded) {
+  ::kill(robots_[8], SIGKILL);
+  finish(robots_[8]);
+  robots_[8] = 0;
+  // Option and value side by side.
+  // clang-format off
+  const pid_t listener = start({"listen", three_targets, "--key", "fleet.key", "--listen", address(3 * count),
+                                "--speed", "5", "--wait", "60", "--out", "result", "--set", "swarm.start.layout=grid", "--set", "swarm.robots=8",
+                                "--set", "mission.stop_when_complete=false", "--set", "mission.time_limit_s=30"});
+  // clang-format on
+  EXPECT_TRUE(becomes([&] { return exists("result/run.mcap.part"); })) << read("stderr.txt");
+  std::this_thread::sleep_for(std::chrono::milliseconds(800));
+  start_robot(8, false);
+  const Outcome outcome = finish(listener);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "COMPLETE after")) << outcome.out << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "s: robot 8 has joined")) << outcome.err;
+  EXPECT_FALSE(has(outcome.err, "refused")) << outcome.err;
+  ASSERT_EQ(run({"export", "result/run.mcap", "-o", "robots.csv"}).code, 0);
+  std::istringstream rows(read("robots.csv"));
+  std::size_t count_of_last = 0, moments = 0;
+  Places last{};
+  for (std::string row; std::getline(rows, row);) {
+    double time_s = 0.0, x = 0.0, y = 0.0;
+    std::size_t tick = 0, i = 0;
+    char comma = 0;
+    if (!(std::istringstream(row) >> tick >> comma >> time_s >> comma >> i >> comma >> x >> comma >> y)) continue;
+    last.at(i) = {x, y};
+    moments += i == 0 ? 1U : 0U;
+    count_of_last += i == 8 ? 1U : 0U;
+  }
+  EXPECT_GT(count_of_last, 50U);
+  EXPECT_LT(count_of_last, moments);
+  EXPECT_LT(distance(last[8], last[0]), 2.0 * reach_m);
+}
+
 TEST_F(FleetProgram, RefusesWhatCannotBe) {
   expect_refused({"fleet", three_targets, "--loss", "1"}, "from 0 to 0.99");
   expect_refused({"fleet", "-"}, "must be a file");

@@ -144,6 +144,7 @@ std::size_t check_in_order(FaultList& list, const Scenario& scenario, std::size_
   }
   for (const std::size_t i : order)
     if (waits(i)) {
+      // NOLINTNEXTLINE(bugprone-unused-raii): likewise
       CheckEventFits(list, scenario, end, i, sequel);
       if (const auto* join = std::get_if<Join>(&events[i].action); join != nullptr && join->robot == sequel.robots)
         ++sequel.robots;

@@ -249,7 +249,8 @@ FleetChanges Hub::wait_for(std::uint32_t tick, const Stopped& stopped) {
   FleetChanges changes;
   const auto admit_all = [&] {
     for (const HubJournalEntry& entry : entries)
-      if (const auto id = entry.newcomer()) changes.joined.push_back(admit(*id, tick));
+      if (const auto id = entry.newcomer(); id && (roster_.with_id(*id) || roster_.size() < roster_.most()))
+        changes.joined.push_back(admit(*id, tick));
   };
   if (muted_) {
     entries = journal_->recorded()[tick];
