@@ -176,7 +176,7 @@ SecureChannel::Taken SecureChannel::take_from_stranger(double now_s, const KeyRi
     return {.drop = Drop::in_use};
   }
   Taken taken;
-  taken.drop = Drop::stale;
+  if (believed_ != 0) taken.drop = Drop::stale;  // else it is the first that is heard of the peer
   if (may_ask(now_s)) taken.reply = ask(now_s, keys);
   return taken;
 }

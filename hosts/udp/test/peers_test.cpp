@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <map>
+#include <random>
+
 namespace banyan::udp {
 namespace {
 
@@ -99,6 +103,41 @@ TEST_F(PeersTest, AnIdBelongsToWhoHasItAndASecondOneIsNoticed) {
   EXPECT_EQ(give(b_, second.speak(word_, keys_), now_s + 0.5).drop, Drop::in_use);
   introduce(second, b_, now_s + 1.5);
   EXPECT_EQ(give(b_, second.speak(word_, keys_), now_s + 1.6).what, What::message);
+}
+
+// Datagrams that are lost, late and out of order delay it; whoever starts again is met again.
+TEST_F(PeersTest, WhateverIsLostTheyMeet) {
+  std::mt19937 random(1);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same cases every time
+  const auto share = [&] { return static_cast<double>(random()) / static_cast<double>(std::mt19937::max()); };
+  for (int round = 0; round < 200; ++round) {
+    const double loss = 0.6 * share(), latest_s = 0.5 * share();
+    std::array<Peers, 2> peers{Peers(1, 1 + random()), Peers(2, 1 + random())};
+    std::multimap<double, std::pair<std::size_t, Bytes>> under_way;  // when, to whom
+    std::array<double, 2> heard_s{-1.0, -1.0};
+    const auto send = [&](std::size_t to, const Bytes& datagram, double now_s) {
+      if (!datagram.empty() && share() >= loss) under_way.emplace(now_s + latest_s * share(), std::pair(to, datagram));
+    };
+    const double again_s = 5.0 + 10.0 * share();
+    bool has_started_again = false;
+    for (double now_s = 0.0; now_s < 30.0; now_s += 0.05) {
+      if (!has_started_again && now_s >= again_s) {
+        peers[0] = Peers(1, 1 + random());
+        heard_s = {-1.0, -1.0};
+        has_started_again = true;
+      }
+      for (std::size_t i = 0; i < 2; ++i) send(1 - i, peers.at(i).speak(word_, keys_), now_s);
+      while (!under_way.empty() && under_way.begin()->first <= now_s) {
+        const auto [to, datagram] = under_way.extract(under_way.begin()).mapped();
+        const auto taken = give(peers.at(to), datagram, now_s);
+        send(1 - to, taken.reply, now_s);
+        if (taken.what == What::message && heard_s.at(to) < 0.0) heard_s.at(to) = now_s;
+      }
+    }
+    for (const double heard : heard_s) {
+      EXPECT_GE(heard, again_s) << round;
+      EXPECT_LE(heard, again_s + 10.0) << round;
+    }
+  }
 }
 
 TEST_F(PeersTest, AsksFiveTimesASecond) {
