@@ -43,11 +43,8 @@ bool Listener::hear(const Envelope& envelope, const Address& from) {
     return false;
   }
   const std::size_t i = known ? *known : roster_.add(envelope.sender);
-  std::erase_if(account->seen, [&](Sighting& sighting) {
-    const auto other = roster_.with_id(sighting.robot);
-    if (other) sighting.robot = static_cast<RobotId>(*other);
-    return !other;  // it has told nothing
-  });
+  std::erase_if(account->seen, [&](const Sighting& s) { return !roster_.with_id(s.robot); });  // they have told nothing
+  for (Sighting& sighting : account->seen) sighting.robot = static_cast<RobotId>(*roster_.with_id(sighting.robot));
   Robot& robot = robots_[i];
   robot.last = account->status;
   robot.is_new = true;
