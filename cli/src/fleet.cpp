@@ -30,6 +30,8 @@ struct FleetOptions {
   bool restart = true;    // robots that end unasked
   bool view = false;      // the page beside it
   bool ros2 = false;      // shown in ROS 2
+  std::string names;      // of robots; "": ids from 0
+  std::size_t room = 16;  // for robots that join later
   double speed = 1.0;
   std::size_t bundle = 1;
   double loss = 0.0;  // from here on: of the way from robot to robot
@@ -93,8 +95,10 @@ udp::Arguments hub_arguments(const FleetOptions& options, const std::string& key
   // Option and value side by side.
   // clang-format off
   udp::Arguments arguments{own_program(), "hub", options.run.scenario, "--key", key, "--out", out, "--force",
-                           "--journal", journal, "--speed", format("%g", options.speed), "--bundle", std::to_string(options.bundle)};
+                           "--journal", journal, "--speed", format("%g", options.speed), "--bundle", std::to_string(options.bundle),
+                           "--room", std::to_string(options.room)};
   // clang-format on
+  if (!options.names.empty()) arguments.insert(arguments.end(), {"--names", options.names});
   for (const auto& override : options.run.overrides) {
     if (override.file.empty()) arguments.insert(arguments.end(), {"--set", override.assignment});
     else arguments.insert(arguments.end(), {"--with", override.file});
@@ -105,9 +109,9 @@ udp::Arguments hub_arguments(const FleetOptions& options, const std::string& key
   return arguments;
 }
 
-udp::Arguments robot_arguments(const FleetOptions& options, const world::Scenario& scenario, std::size_t i,
+udp::Arguments robot_arguments(const FleetOptions& options, const world::Scenario& scenario, udp::NodeId id,
                                const std::string& key) {
-  udp::RobotOptions robot = robot_options(scenario, i);
+  udp::RobotOptions robot = robot_options(scenario, id);
   robot.key_file = key;
   robot.speed = options.speed;
   udp::Arguments arguments = udp::to_arguments(robot);
@@ -126,12 +130,12 @@ int run_fleet(udp::Fleet::Plan plan) {
   }
 }
 
-udp::Fleet::Plan make_plan(const FleetOptions& options, const world::Scenario& scenario, const std::string& key,
-                           const std::string& out, const std::string& journal, int ros2) {
+udp::Fleet::Plan make_plan(const FleetOptions& options, const world::Scenario& scenario, const udp::Roster& roster,
+                           const std::string& key, const std::string& out, const std::string& journal, int ros2) {
   udp::Fleet::Plan plan;
   plan.hub = hub_arguments(options, key, out, journal, ros2);
-  for (std::size_t i = 0; i < world::robot_count(scenario); ++i)
-    plan.robots.push_back(robot_arguments(options, scenario, i, key));
+  for (std::size_t i = 0; i < roster.size(); ++i)
+    plan.robots.push_back(robot_arguments(options, scenario, roster.id(i), key));
   plan.restart = options.restart;
   plan.way = {options.loss,      options.delay_ms / 1e3, options.jitter_ms / 1e3,
               options.duplicate, options.reorder,        options.rate_kbit_s * 125.0};
@@ -148,6 +152,7 @@ int start_fleet(const FleetOptions& options) {
   if (options.run.scenario == "-")
     throw CommandError(exit_usage, "the scenario of a fleet must be a file: its hub reads it, too");
   const config::Configuration configuration = load_fleet(options.run.scenario, options.run.overrides);
+  const udp::Roster roster = roster_of(options.names, options.room, configuration.scenario);
   const RunOutputs outputs(configuration, options.run.out, options.run.force);
   try {
     PageBeside page =
@@ -156,8 +161,8 @@ int start_fleet(const FleetOptions& options) {
     if (options.ros2) ros2.emplace();
     const std::string journal = outputs.directory() + "/fleet.journal";
     const MemoryKey key;
-    const int code = run_fleet(make_plan(options, configuration.scenario, key.path(), outputs.directory(), journal,
-                                         ros2 ? ros2->socket() : -1));
+    const int code = run_fleet(make_plan(options, configuration.scenario, roster, key.path(), outputs.directory(),
+                                         journal, ros2 ? ros2->socket() : -1));
     std::error_code ignored;
     std::filesystem::remove(journal, ignored);
     outputs.abandon();  // if the hub has written nothing
@@ -190,6 +195,7 @@ void add_fleet(CLI::App& command, CommandAction& action) {
       "  banyan fleet scenarios/khepera-three-targets.toml --set mission.algorithm=convoy --speed 5");
   command.add_option("scenario", options->run.scenario, "a scenario (.toml or .json)")->required()->type_name("FILE");
   add_results(command, options->run);
+  add_members(command, *options);
   add_pace(command, *options);
   const auto way = [&](const char* name, double& value, double most, const char* meaning) {
     command.add_option(name, value, meaning)->type_name("X")->check(number_within(0.0, most));

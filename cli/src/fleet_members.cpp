@@ -6,6 +6,7 @@
 #include "banyan/hosts/udp/fleet.hpp"
 #include "banyan/hosts/udp/journal.hpp"
 #include "banyan/hosts/udp/key.hpp"
+#include "banyan/hosts/udp/option_error.hpp"
 #include "banyan/hosts/udp/socket.hpp"
 #include "shipped.hpp"
 #include "terminal.hpp"
@@ -28,9 +29,20 @@ config::Configuration load_fleet(const std::string& scenario, const std::vector<
   return loaded.configuration;
 }
 
-udp::RobotOptions robot_options(const world::Scenario& scenario, std::size_t i) {
+udp::Roster roster_of(const std::string& names, std::size_t room, const world::Scenario& scenario) {
+  const std::size_t robots = world::robot_count(scenario);
+  if (names.empty()) return udp::Roster(robots, room);
+  udp::Roster roster(names, room);
+  if (roster.size() != robots)
+    throw CommandError(exit_usage, "--names has " + plural(roster.size(), "name") + ", the scenario " +
+                                       plural(robots, "robot") +
+                                       "; change the names or --set swarm.robots=" + std::to_string(roster.size()));
+  return roster;
+}
+
+udp::RobotOptions robot_options(const world::Scenario& scenario, udp::NodeId id) {
   udp::RobotOptions options;
-  options.id = static_cast<RobotId>(i);
+  options.id = id;
   options.algorithm = scenario.mission.algorithm;
   options.setup = world::setup_of(scenario);
   options.setup.history = 1;  // of packets that the robot itself delays
@@ -41,6 +53,8 @@ int with_fleet_errors(const std::function<int()>& command) {
   try {
     return command();
   } catch (const udp::KeyError& error) {
+    throw CommandError(exit_usage, error.what());
+  } catch (const udp::OptionError& error) {
     throw CommandError(exit_usage, error.what());
   } catch (const udp::SocketError& error) {
     throw CommandError(exit_lost, error.what());

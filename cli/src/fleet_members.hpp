@@ -8,6 +8,7 @@
 
 #include "banyan/config/config.hpp"
 #include "banyan/hosts/udp/robot_options.hpp"
+#include "banyan/hosts/udp/roster.hpp"
 
 namespace banyan::cli {
 
@@ -15,8 +16,11 @@ namespace banyan::cli {
 [[nodiscard]] config::Configuration load_fleet(const std::string& scenario,
                                                const std::vector<config::Override>& overrides);
 
-// The options of robot i, without hub and key.
-[[nodiscard]] udp::RobotOptions robot_options(const world::Scenario& scenario, std::size_t i);
+// Of --names, "": ids from 0; as many as the scenario's robots, and room for more.
+[[nodiscard]] udp::Roster roster_of(const std::string& names, std::size_t room, const world::Scenario& scenario);
+
+// The options of the robot with that id, without hub and key.
+[[nodiscard]] udp::RobotOptions robot_options(const world::Scenario& scenario, udp::NodeId id);
 
 // From here on what can go wrong with keys, sockets and processes is a CommandError.
 int with_fleet_errors(const std::function<int()>& command);

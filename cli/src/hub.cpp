@@ -7,10 +7,12 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <random>
+#include <set>
 #include <thread>
 
 #include "banyan/hosts/udp/hub.hpp"
@@ -20,6 +22,8 @@
 #include "banyan/hosts/udp/remote_swarm.hpp"
 #include "banyan/hosts/udp/socket.hpp"
 #include "banyan/world/faults.hpp"
+#include "banyan/world/names.hpp"
+#include "banyan/world/placement.hpp"
 #include "commands.hpp"
 #include "fleet_members.hpp"
 #include "keep_run.hpp"
@@ -38,6 +42,8 @@ struct HubOptions {
   std::string listen = "0.0.0.0:4600";
   std::string key_file;
   std::string poses;          // ADDRESS:PORT at which a tracker's poses arrive; "": bodies are simulated
+  std::string names;          // of robots; "": ids from 0
+  std::size_t room = 16;      // for robots that join later
   std::string journal;        // file; "": none
   bool resume = false;        // go on where the journal ends
   double wait_s = 10.0;       // for robots, before the mission begins
@@ -66,7 +72,8 @@ std::uint64_t digest_of(const std::string& text) {
 std::unique_ptr<udp::HubJournal> open_journal(const HubOptions& options, const config::Configuration& configuration,
                                               udp::PoseStream* tracker) {
   if (options.journal.empty()) return nullptr;
-  const std::uint64_t digest = digest_of(config::config_json(configuration));
+  const std::uint64_t digest =
+      digest_of(config::config_json(configuration) + options.names + " " + std::to_string(options.room));
   if (!options.resume)
     return std::make_unique<udp::HubJournal>(options.journal, digest, std::random_device{}(),
                                              tracker ? tracker->lines() : "");
@@ -78,12 +85,6 @@ std::unique_ptr<udp::HubJournal> open_journal(const HubOptions& options, const c
                                               : ": is the journal of a mission without a tracker; leave --poses out"));
   if (tracker != nullptr) tracker->restore(journal->start());
   return journal;
-}
-
-std::string list_of(const std::vector<std::size_t>& robots) {
-  std::string text;
-  for (const std::size_t robot : robots) text += (text.empty() ? "" : ", ") + std::to_string(robot);
-  return text;
 }
 
 // What takes the place of World::step's own robots: waits for the moment of each tick.
@@ -104,10 +105,12 @@ class Conductor {
     if (tracker_ != nullptr) hub_.watch(*tracker_, [&] { see(stopped); });
     if (!options_.resume) gather(stopped);
     while (!simulation.finished()) {
-      const auto dead = hub_.wait_for(static_cast<std::uint32_t>(simulation.world().tick()), stopped);
+      const udp::FleetChanges changes = hub_.wait_for(static_cast<std::uint32_t>(simulation.world().tick()), stopped);
       if (stopped()) return end(simulation, true);
       refresh_keys();
-      for (const std::size_t robot : dead) bury(simulation, robot);
+      for (const std::size_t robot : changes.dead) bury(simulation, robot);
+      coming_.insert(coming_.end(), changes.joined.begin(), changes.joined.end());
+      welcome(simulation);
       if (ros2) ros2->heed(simulation);
       simulation.step(executor);
     }
@@ -127,8 +130,8 @@ class Conductor {
     });
     if (missing.empty() || stopped()) return;
     hub_.stop_all();
-    throw CommandError(exit_lost,
-                       format("within %g s nothing was heard of robot ", options_.wait_s) + list_of(missing));
+    throw CommandError(
+        exit_lost, format("within %g s nothing was heard of robot ", options_.wait_s) + hub_.roster().list_of(missing));
   }
 
   // Without poses nothing goes on: the hub is silent, so the robots stand still, until the tracker is back.
@@ -141,12 +144,40 @@ class Conductor {
     }
   }
 
-  static void bury(record::Simulation& simulation, std::size_t robot) {
+  [[nodiscard]] std::string at(const record::Simulation& simulation, std::size_t robot) const {
+    return format("%.1f s: robot ", simulation.world().time_s()) + hub_.roster().name(robot);
+  }
+
+  void bury(record::Simulation& simulation, std::size_t robot) {
+    std::erase(coming_, robot);
     if (simulation.world().alive()[robot] == 0) return;
-    complain(format("%.1f s: robot %zu has fallen silent and counts as dead", simulation.world().time_s(), robot));
+    complain(at(simulation, robot) + (hub_.has_left(robot) ? " has left" : " has fallen silent and counts as dead"));
     world::Event event;
     event.action = world::Die{robot};
     simulation.intervene(event);
+  }
+
+  // One in a tick: the next stands beside it. Whoever cannot be there yet waits.
+  void welcome(record::Simulation& simulation) {
+    if (coming_.empty()) return;
+    const std::size_t robot = coming_.front();
+    const auto place = place_of(simulation.world(), robot);
+    if (!place) return;
+    world::Event event;
+    event.action = world::Join{robot, *place};
+    if (const auto faults = simulation.world().faults_now(event); !faults.empty()) {
+      if (told_.insert(robot).second) complain(at(simulation, robot) + " cannot join yet: " + faults.front().text);
+      return;
+    }
+    simulation.intervene(event);
+    complain(at(simulation, robot) + " has joined");
+    coming_.pop_front();
+    told_.erase(robot);
+  }
+  [[nodiscard]] std::optional<world::Vec2> place_of(const world::World& world, std::size_t robot) const {
+    if (tracker_ == nullptr) return world::free_place(world);
+    const auto& seen = tracker_->poses()[robot];
+    return seen ? std::optional(seen->position) : std::nullopt;
   }
 
   record::RunEnd end(record::Simulation& simulation, bool interrupted) {
@@ -160,6 +191,8 @@ class Conductor {
   udp::KeyFile& keys_;
   const HubOptions& options_;
   Ros2Mission ros2_;
+  std::deque<std::size_t> coming_;  // who have joined, and are not in the world yet
+  std::set<std::size_t> told_;      // of these, for whom it was said why
 };
 
 std::string remarks_on(const udp::HubCounts& counts, const std::string& impairment) {
@@ -182,23 +215,30 @@ std::string remarks_on(const udp::HubCounts& counts, const std::string& impairme
 }
 
 // Until each robot has been seen.
-std::unique_ptr<udp::PoseStream> open_tracker(const HubOptions& options, std::size_t robots) {
+std::unique_ptr<udp::PoseStream> open_tracker(const HubOptions& options, const udp::Roster& roster) {
   if (options.poses.empty()) return nullptr;
-  auto tracker = std::make_unique<udp::PoseStream>(udp::parse_address(options.poses), robots);
+  auto tracker = std::make_unique<udp::PoseStream>(udp::parse_address(options.poses), roster);
+  tracker->tell_unknown([&roster](const std::string& name) {
+    std::vector<std::string_view> known;
+    for (std::size_t i = 0; i < roster.size(); ++i) known.push_back(roster.name(i));
+    const std::string near(world::nearest_name(name, known));
+    complain("the tracker sees " + name + ", which is no robot of this mission" +
+             (near.empty() ? "" : "; did you mean " + near + "?"));
+  });
   const udp::Clock clock;
   while (!tracker->missing().empty() && clock.now_s() < options.wait_s) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     tracker->listen();
   }
   if (!tracker->missing().empty())
-    throw CommandError(
-        exit_lost, format("within %g s the tracker did not see robot ", options.wait_s) + list_of(tracker->missing()));
+    throw CommandError(exit_lost, format("within %g s the tracker did not see robot ", options.wait_s) +
+                                      roster.list_of(tracker->missing()));
   return tracker;
 }
 
 // The scenario with the robots where they are; refused if no mission can begin there.
 world::Scenario seen_by(const udp::PoseStream& tracker, const world::Scenario& scenario) {
-  world::Scenario seen = started_where_seen(scenario, tracker.poses());
+  world::Scenario seen = started_where_seen(scenario, tracker.poses().first(world::robot_count(scenario)));
   std::string text;
   for (const world::Fault& fault : world::faults(seen))
     if (!fault.warning) text += "\n  " + fault.key + ": " + fault.text;
@@ -221,10 +261,11 @@ int play_scenario(const HubOptions& options) {
   config::Configuration configuration = load_fleet(options.run.scenario, options.run.overrides);
   world::Scenario& scenario = configuration.scenario;
   udp::KeyFile keys = keys_of(options);
-  const std::size_t robots = world::robot_count(scenario);
-  const auto tracker = open_tracker(options, robots);
+  udp::Roster roster = roster_of(options.names, options.room, scenario);
+  const auto tracker = open_tracker(options, roster);
   const auto journal = open_journal(options, configuration, tracker.get());
   if (tracker) scenario = seen_by(*tracker, scenario);
+  scenario.swarm.room = roster.most() - roster.size();
   configuration.output.live = true;  // it takes as long as it takes, and somebody may want to watch
   const RunOutputs outputs(configuration, options.run.out, options.run.force || options.resume);
   PageBeside page = options.view ? PageBeside(outputs, configuration.output) : PageBeside();
@@ -235,7 +276,7 @@ int play_scenario(const HubOptions& options) {
                               tracker ? RosWorld::real : RosWorld::simulated, journal ? journal->recorded().size() : 0};
     const udp::HubSettings hub_options{udp::parse_address(options.listen), scenario.tick_s, options.speed,
                                        options.dead_after_s, options.bundle};
-    udp::Hub hub(hub_options, robots, keys.keys(), journal.get());
+    udp::Hub hub(hub_options, roster, keys.keys(), journal.get());
     hub.tell_refusals([](const std::string& text) { complain(text); });
     const auto silence = static_cast<std::uint32_t>(still_after_s / scenario.tick_s);
     const AlgorithmElsewhere remote = udp::remote_algorithm(world::algorithm_of(scenario), hub, silence);
@@ -274,25 +315,30 @@ int stop_peers(const HubOptions& options) {
           for (const udp::Bytes& reply : stopper.take(*envelope, keys)) socket.send(reply, from);
     }
   }
-  std::vector<std::size_t> stopped, silent;
-  for (const auto& [robot, has_stopped] : stopper.robots()) (has_stopped ? stopped : silent).push_back(robot);
-  if (!silent.empty()) throw CommandError(exit_lost, "did not confirm the stop: robot " + list_of(silent));
+  const udp::Roster roster = options.names.empty() ? udp::Roster(std::size_t{0}) : udp::Roster(options.names);
+  std::string stopped, silent;
+  for (const auto& [robot, has_stopped] : stopper.robots()) {
+    std::string& list = has_stopped ? stopped : silent;
+    list += (list.empty() ? "" : ", ") + roster.name_of(robot);
+  }
+  if (!silent.empty()) throw CommandError(exit_lost, "did not confirm the stop: robot " + silent);
   if (stopped.empty()) throw CommandError(exit_lost, "no robot has answered at " + options.stop);
-  print("stopped: robot " + list_of(stopped) + "\n");
+  print("stopped: robot " + stopped + "\n");
   return exit_done;
 }
 
 int print_robots(const HubOptions& options) {
   const config::Configuration configuration = load_fleet(options.run.scenario, options.run.overrides);
-  const std::size_t robots = world::robot_count(configuration.scenario);
+  const udp::Roster roster = roster_of(options.names, options.room, configuration.scenario);
   std::string text;
-  for (std::size_t i = 0; i < robots; ++i) {
-    udp::RobotOptions robot = robot_options(configuration.scenario, i);
+  for (std::size_t i = 0; i < roster.size(); ++i) {
+    udp::RobotOptions robot = robot_options(configuration.scenario, roster.id(i));
     robot.key_file = options.key_file.empty() ? "KEY" : options.key_file;
     robot.hub = options.listen;
     robot.speed = options.speed;
     text += "banyan-robot";
     for (const std::string& argument : udp::to_arguments(robot)) text += " " + argument;
+    if (roster.name(i) != std::to_string(roster.id(i))) text += "  # " + roster.name(i);
     text += "\n";
   }
   print(text);
@@ -336,6 +382,7 @@ void add_hub(CLI::App& command, CommandAction& action) {
   command.add_option("--listen", options->listen, "where robots find it, default 0.0.0.0:4600")
       ->type_name("ADDRESS:PORT");
   command.add_flag("--print-robots", options->print_robots, "print the command line of each robot and exit");
+  add_members(command, *options);
   add_patience(command, *options);
   command.add_option("--poses", options->poses, "take poses from a tracker here, instead of simulating bodies")
       ->type_name("ADDRESS:PORT");

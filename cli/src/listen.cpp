@@ -21,7 +21,9 @@ struct ListenOptions {
   RunOptions run;
   std::string listen = "0.0.0.0:4700";
   std::string key_file;
-  double wait_s = 10.0;  // for robots, before the recording begins
+  std::string names;      // of robots; "": ids from 0
+  std::size_t room = 16;  // for robots that join later
+  double wait_s = 10.0;   // for robots, before the recording begins
   double dead_after_s = 5.0;
   double speed = 1.0;
   bool view = false;  // the page beside it
@@ -31,9 +33,9 @@ constexpr double moved_m = 0.05;  // by less a target has not moved: it is measu
 constexpr double told_lately_s = 0.5;
 
 // Which robots have a target, in their order: target k is that of the k-th.
-std::vector<std::size_t> workers_of(const udp::Chart& chart) {
+std::vector<std::size_t> workers_of(const udp::Chart& chart, std::size_t robots) {
   std::vector<std::size_t> workers;
-  for (std::size_t i = 0; i < chart.poses().size(); ++i)
+  for (std::size_t i = 0; i < robots; ++i)
     if (chart.target_of(i)) workers.push_back(i);
   if (workers.empty()) throw CommandError(exit_lost, "no robot says that it has a target");
   return workers;
@@ -43,14 +45,15 @@ std::vector<std::size_t> workers_of(const udp::Chart& chart) {
 // sends whoever is nearest; from the first tick on it is where that robot says.
 world::Scenario told_by(const udp::Listener& listener, const std::vector<std::size_t>& workers,
                         world::Scenario scenario) {
+  const std::size_t robots = world::robot_count(scenario);
   scenario.mission.time_limit_s = world::time_limit_s(scenario);  // by the scenario's own targets
-  scenario = started_where_seen(std::move(scenario), listener.chart().poses());
+  scenario = started_where_seen(std::move(scenario), listener.chart().poses().first(robots));
   std::vector<world::Vec2> targets;
   targets.reserve(workers.size());
   for (const std::size_t worker : workers) targets.push_back(listener.chart().poses()[worker]->position);
   scenario.targets = targets;
   scenario.swarm.root.reset();
-  for (std::size_t i = 0; i < listener.chart().poses().size(); ++i)
+  for (std::size_t i = 0; i < robots; ++i)
     if (listener.last(i)->report.role == Role::root) scenario.swarm.root = i;
   std::string text;
   for (const world::Fault& fault : world::faults(scenario))
@@ -70,9 +73,17 @@ class Ears {
     const auto stopped = [&] { return !go_on(simulation); };
     simulation.stop_when(stopped);
     while (!simulation.finished() && living(simulation.world()) > 0) {
-      const auto silent = listener_.wait_for(static_cast<std::uint32_t>(simulation.world().tick()), stopped);
+      const udp::FleetChanges changes =
+          listener_.wait_for(static_cast<std::uint32_t>(simulation.world().tick()), stopped);
       if (stopped()) return simulation.finish(true);
-      for (const std::size_t robot : silent) happen(simulation, world::Die{robot});
+      for (const std::size_t robot : changes.dead) {
+        complain(at(simulation, robot) + " has fallen silent and counts as dead");
+        happen(simulation, world::Die{robot});
+      }
+      for (const std::size_t robot : changes.joined) {
+        complain(at(simulation, robot) + " has joined");
+        happen(simulation, world::Join{robot, listener_.chart().poses()[robot]->position});
+      }
       for (std::size_t k = 0; k < workers_.size(); ++k) look_at_target(simulation, k);
       simulation.step(executor);
     }
@@ -84,10 +95,14 @@ class Ears {
     const auto alive = world.alive();
     return static_cast<std::size_t>(std::count_if(alive.begin(), alive.end(), [](auto a) { return a != 0; }));
   }
+  [[nodiscard]] std::string at(const record::Simulation& simulation, std::size_t robot) const {
+    return format("%.1f s: robot ", simulation.world().time_s()) + listener_.roster().name(robot);
+  }
   static void happen(record::Simulation& simulation, const world::Action& action) {
     world::Event event;
     event.action = action;
-    simulation.intervene(event);
+    if (const auto faults = simulation.world().faults_now(event); faults.empty()) simulation.intervene(event);
+    else complain("what the robots tell cannot be: " + faults.front().text);
   }
   void look_at_target(record::Simulation& simulation, std::size_t k) const {
     const auto told = listener_.chart().target_of(workers_[k]);
@@ -108,9 +123,8 @@ std::string remarks_on(const udp::Listener& listener) {
 void gather(udp::Listener& listener, std::size_t targets, double wait_s) {
   const auto missing = listener.gather(wait_s, targets, [] { return stop_signal() != 0; });
   if (missing.empty() || stop_signal() != 0) return;
-  std::string list;
-  for (const std::size_t robot : missing) list += (list.empty() ? "" : ", ") + std::to_string(robot);
-  throw CommandError(exit_lost, format("within %g s there was no place for robot ", wait_s) + list +
+  throw CommandError(exit_lost, format("within %g s there was no place for robot ", wait_s) +
+                                    listener.roster().list_of(missing) +
                                     ": it was not heard, or measured nobody who measured it");
 }
 
@@ -120,12 +134,14 @@ int record_mission(const ListenOptions& options) {
   world::Scenario& scenario = configuration.scenario;
   const udp::ListenerOptions ends{udp::parse_address(options.listen), scenario.tick_s, options.speed,
                                   options.dead_after_s};
-  udp::Listener listener(ends, world::robot_count(scenario), udp::KeyFile(options.key_file).keys());
+  udp::Roster roster = roster_of(options.names, options.room, scenario);
+  udp::Listener listener(ends, roster, udp::KeyFile(options.key_file).keys());
   listener.tell_refusals([](const std::string& text) { complain(text); });
   gather(listener, world::mission_targets(scenario).size(), options.wait_s);
   if (stop_signal() != 0) return exit_signal + stop_signal();
-  const auto workers = workers_of(listener.chart());
+  const auto workers = workers_of(listener.chart(), world::robot_count(scenario));
   scenario = told_by(listener, workers, scenario);
+  scenario.swarm.room = roster.most() - world::robot_count(scenario);
   const RunOutputs outputs(configuration, options.run.out, options.run.force);
   PageBeside page = options.view ? PageBeside(outputs, configuration.output) : PageBeside();
   try {
@@ -157,7 +173,7 @@ void add_listen(CLI::App& command, CommandAction& action) {
   auto options = std::make_shared<ListenOptions>();
   command.footer(
       "Robots report by --tell what they do, whom they measure and where their targets are. Their places follow from\n"
-      "that, in a frame of their own. The number of robots, radio and bodies are as in the scenario.\n"
+      "that, in a frame of their own. The number of robots at first, radio and bodies are as in the scenario.\n"
       "Results are as from `banyan run`.\n\n"
       "Examples:\n"
       "  banyan listen scenarios/khepera-three-targets.toml --key fleet.key --listen 192.168.1.10:4700 --view");
@@ -167,6 +183,7 @@ void add_listen(CLI::App& command, CommandAction& action) {
       ->type_name("FILE");
   command.add_option("--listen", options->listen, "where robots report to, their --tell; default 0.0.0.0:4700")
       ->type_name("ADDRESS:PORT");
+  add_members(command, *options);
   add_patience(command, *options);
   command.add_option("--speed", options->speed, "speed of its clock, default 1; for tests")
       ->type_name("X")

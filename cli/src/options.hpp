@@ -67,6 +67,17 @@ template <class Options> void add_patience(CLI::App& command, Options& options) 
       ->check(number_within(0.5, 1e6));
 }
 
+// Who belongs to a fleet.
+template <class Options> void add_members(CLI::App& command, Options& options) {
+  command
+      .add_option("--names", options.names,
+                  "names of the robots, each ending in its id: cf_1,cf_7 or robot_{01-09}; default their ids, from 0")
+      ->type_name("NAMES");
+  command.add_option("--room", options.room, "so many robots may join later; default 16")
+      ->type_name("N")
+      ->check(whole_within(0, 1000));
+}
+
 template <class Options> void add_pace(CLI::App& command, Options& options) {
   command.add_option("--speed", options.speed, "speed of all clocks, default 1; for tests")
       ->type_name("X")

@@ -16,7 +16,7 @@ using SeenPoses = std::span<const std::optional<udp::TrackedPose>>;
 // them.
 [[nodiscard]] std::unique_ptr<world::Bodies> tracked_bodies(SeenPoses seen);
 
-// The scenario with robots that start where they are. Each of them must have been seen.
+// The scenario with robots that start where they are. Of `seen`, each must have been.
 [[nodiscard]] world::Scenario started_where_seen(world::Scenario scenario, SeenPoses seen);
 
 }  // namespace banyan::cli

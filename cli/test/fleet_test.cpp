@@ -37,11 +37,12 @@ const std::string three_targets = std::string(BANYAN_SCENARIOS) + "/khepera-thre
 // Robots that step once a tick, right after the hub's word.
 class NearbyRobots final : public udp::RemoteLink {
  public:
-  NearbyRobots(const world::Scenario& scenario, std::size_t robots) : answers_(robots) {
+  NearbyRobots(const world::Scenario& scenario, std::size_t robots, const std::string& names = "")
+      : RemoteLink(roster_), roster_(names.empty() ? udp::Roster(robots) : udp::Roster(names)), answers_(robots) {
     Setup setup = world::setup_of(scenario);
     setup.history = 1;
     for (std::size_t i = 0; i < robots; ++i)
-      robots_.emplace_back(world::algorithm_of(scenario), setup, static_cast<RobotId>(i), 0.5);
+      robots_.emplace_back(world::algorithm_of(scenario), setup, roster_.id(i), 0.5);
   }
   [[nodiscard]] std::optional<udp::Status> take(std::size_t i) override {
     return std::exchange(answers_[i], std::nullopt);
@@ -59,6 +60,7 @@ class NearbyRobots final : public udp::RemoteLink {
   std::set<std::size_t> dismissed;
 
  private:
+  udp::Roster roster_;
   std::vector<udp::UdpRobot> robots_;
   std::vector<std::optional<udp::Status>> answers_;
 };
@@ -92,6 +94,44 @@ TEST(RemoteSwarm, DoesWhatTheWorldsOwnDoes) {
     // Nearly: they learn of their first frame a tick later, and their odometry is rounded differently.
     EXPECT_NEAR(remote.run.completion_time_s, own.run.completion_time_s, 0.1 * own.run.completion_time_s) << algorithm;
   }
+}
+
+// A robot's id is its own, its index the world's; what is observed is in indices.
+TEST(RemoteSwarm, IdsNeedNotBeIndices) {
+  for (const char* algorithm : {"outwards", "convoy"}) {
+    const world::Scenario scenario = configuration({std::string("mission.algorithm=") + algorithm}).scenario;
+    NearbyRobots plain(scenario, 9), named(scenario, 9, "cf_{31-38},lead_700");
+    const auto expected = played(scenario, plain), found = played(scenario, named);
+    ASSERT_TRUE(found.run.complete) << algorithm;
+    // Ids decide only in the order of robots, which is the same here.
+    EXPECT_EQ(found.run.completion_time_s, expected.run.completion_time_s) << algorithm;
+    EXPECT_EQ(found.run.driven_m, expected.run.driven_m) << algorithm;
+  }
+}
+
+TEST(RemoteSwarm, WhoeverJoinsIsAFreshSpare) {
+  world::Scenario scenario =
+      configuration({"mission.algorithm=convoy", "mission.stop_when_complete=false", "mission.time_limit_s=40"})
+          .scenario;
+  world::Event join, die, again;
+  join.time_s = 2.0;
+  join.action = world::Join{9, {0.0, -0.7}};
+  die.time_s = 3.0;
+  die.action = world::Die{9};
+  again.time_s = 5.0;
+  again.action = world::Join{9, {0.3, -0.7}};
+  scenario.events = {join, die, again};
+  NearbyRobots robots(scenario, 10);
+  const AlgorithmElsewhere remote = udp::remote_algorithm(world::algorithm_of(scenario), robots, 5);
+  world::World world(scenario, remote);
+  while (world.time_s() < 5.05) world.step();
+  EXPECT_EQ(world.alive()[9], 1);
+  EXPECT_EQ(world.reports()[9].role, Role::spare);
+  while (world.time_s() < 40.0) {
+    world.step();
+    ASSERT_FALSE(world.links(9).empty()) << world.time_s();
+  }
+  EXPECT_TRUE(world.holder(0) && world.holder(1) && world.holder(2));
 }
 
 TEST(RemoteSwarm, KeepsTwoPaths) {
@@ -531,6 +571,102 @@ TEST_F(Laboratory, RobotsStandStillWithoutTheHubAndGoOnWithAnother) {
   expect_complete(run(hub()));
 }
 
+// Nine robots, called cf_11 to cf_19, and a hub, none of which the others start or end.
+class ComingAndGoing : public FleetProgram {
+ protected:
+  void SetUp() override {
+    FleetProgram::SetUp();
+    hub_address_ = "127.0.0.1:" + std::to_string(free_port());
+    ASSERT_EQ(run({"hub", "--new-key", "fleet.key"}).code, 0);
+    for (int id = 11; id < 20; ++id) start_robot(id);
+  }
+  void TearDown() override {
+    for (const auto& [id, robot] : robots_)
+      if (::kill(robot, SIGTERM) == 0) finish(robot);
+    FleetProgram::TearDown();
+  }
+  void start_robot(int id) {
+    robots_[id] = start({"robot", "--id", std::to_string(id), "--hub", hub_address_, "--key", "fleet.key",
+                         "--algorithm", "convoy", "--speed", "5"});
+  }
+  [[nodiscard]] Arguments hub(const std::string& out) const {
+    // Option and value side by side.
+    // clang-format off
+    return {"hub", three_targets, "--key", "fleet.key", "--listen", hub_address_, "--names", "cf_{11-19}",
+            "--journal", "mission.journal", "--speed", "5", "--out", out, "--force", "--wait", "60",
+            "--set", "mission.algorithm=convoy", "--set", "mission.stop_when_complete=false",
+            "--set", "mission.time_limit_s=60"};
+    // clang-format on
+  }
+  [[nodiscard]] bool told(const std::string& words) const { return has(read("stderr.txt"), words); }
+  [[nodiscard]] nlohmann::json result(const std::string& out) const {
+    return nlohmann::json::parse(read(out + "/run.json"))["result"];
+  }
+  std::string hub_address_;
+  std::map<int, pid_t> robots_;
+};
+
+TEST_F(ComingAndGoing, RobotsJoinLeaveAndComeBackWhileTheMissionGoesOn) {
+  pid_t mission = start(hub("result"));
+  const auto journal = home_ / "mission.journal";
+  EXPECT_TRUE(becomes([&] { return std::filesystem::exists(journal) && std::filesystem::file_size(journal) > 75000; }))
+      << read("stderr.txt");
+  start_robot(42);  // some five seconds later, an id that nobody has announced
+  EXPECT_TRUE(becomes([&] { return told("s: robot cf_42 has joined"); })) << read("stderr.txt");
+  ::kill(robots_[18], SIGTERM);
+  EXPECT_TRUE(becomes([&] { return told("s: robot cf_18 has left"); })) << read("stderr.txt");
+  EXPECT_EQ(finish(robots_[18]).code, 128 + SIGTERM);
+  start_robot(18);
+  EXPECT_TRUE(becomes([&] { return told("s: robot cf_18 has joined"); })) << read("stderr.txt");
+  ::kill(mission, SIGKILL);
+  finish(mission);
+  Arguments again = hub("result");
+  again.emplace_back("--resume");
+  const Outcome outcome = run(again);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "COMPLETE after") && has(outcome.out, "in one piece at every tick")) << outcome.out;
+  EXPECT_TRUE(has(outcome.err, "s: robot cf_42 has joined")) << outcome.err;
+  const auto played = result("result");
+  EXPECT_EQ(played["deaths"], 1);
+  EXPECT_EQ(played["survivors"], 10);
+  EXPECT_EQ(played["ticks"], 600);
+  for (const auto& [id, robot] : robots_) EXPECT_EQ(finish(robot).code, 0) << id;
+  robots_.clear();
+  // The world is a function of the journal, those who join included.
+  Arguments replay = hub("replay");
+  replay.emplace_back("--resume");
+  ASSERT_EQ(run(replay).code, 0);
+  EXPECT_EQ(result("replay")["hash"], played["hash"]);
+  // A recording has them from then on.
+  ASSERT_EQ(run({"export", "result/run.mcap", "-o", "robots.csv"}).code, 0);
+  std::map<int, int> rows;
+  std::istringstream lines(read("robots.csv"));
+  for (std::string line; std::getline(lines, line);) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    double tick = 0.0, time_s = 0.0;
+    int robot = 0;
+    if (std::istringstream(line) >> tick >> time_s >> robot) ++rows[robot];
+  }
+  EXPECT_EQ(rows.size(), 10U);
+  EXPECT_EQ(rows[8], 601);
+  EXPECT_LT(rows[9], 590);
+}
+
+TEST_F(ComingAndGoing, WhoeverIsNotWantedOrTwiceThereIsNamed) {
+  Arguments arguments = hub("result");
+  for (const char* more : {"--room", "0"}) arguments.emplace_back(more);
+  const pid_t mission = start(arguments);
+  start_robot(42);
+  EXPECT_TRUE(becomes([&] { return told("refused robot cf_42 at 127.0.0.1:"); })) << read("stderr.txt");
+  const pid_t first = robots_[12];
+  start_robot(12);
+  EXPECT_TRUE(becomes([&] { return told("refused a second robot cf_12 at 127.0.0.1:"); })) << read("stderr.txt");
+  ::kill(first, SIGTERM);
+  finish(first);
+  ::kill(mission, SIGINT);
+  finish(mission);
+}
+
 // Nine robots that talk to each other, each with a base that measures the others; nobody else takes part.
 class WithoutAHub : public FleetProgram {
  protected:
@@ -666,6 +802,43 @@ TEST_F(WithoutAHub, TheirMissionIsRecordedByWhatTheyTell) {
           "there was no place for robot 0, 1, 2"));
 }
 
+// One comes later, with an id of which neither the others nor whoever listens know anything.
+TEST_F(WithoutAHub, WhoeverJoinsTakesPartAndIsRecorded) {
+  ::kill(robots_[8], SIGKILL);
+  finish(robots_[8]);
+  robots_[8] = 0;
+  // Option and value side by side.
+  // clang-format off
+  const pid_t listener = start({"listen", three_targets, "--key", "fleet.key", "--listen", address(3 * count),
+                                "--speed", "5", "--wait", "60", "--out", "result", "--set", "swarm.start.layout=grid", "--set", "swarm.robots=8",
+                                "--set", "mission.stop_when_complete=false", "--set", "mission.time_limit_s=30"});
+  // clang-format on
+  EXPECT_TRUE(becomes([&] { return exists("result/run.mcap.part"); })) << read("stderr.txt");
+  std::this_thread::sleep_for(std::chrono::milliseconds(800));
+  start_robot(8, false);
+  const Outcome outcome = finish(listener);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "COMPLETE after")) << outcome.out << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "s: robot 8 has joined")) << outcome.err;
+  EXPECT_FALSE(has(outcome.err, "refused")) << outcome.err;
+  ASSERT_EQ(run({"export", "result/run.mcap", "-o", "robots.csv"}).code, 0);
+  std::istringstream rows(read("robots.csv"));
+  std::size_t count_of_last = 0, moments = 0;
+  Places last{};
+  for (std::string row; std::getline(rows, row);) {
+    double time_s = 0.0, x = 0.0, y = 0.0;
+    std::size_t tick = 0, i = 0;
+    char comma = 0;
+    if (!(std::istringstream(row) >> tick >> comma >> time_s >> comma >> i >> comma >> x >> comma >> y)) continue;
+    last.at(i) = {x, y};
+    moments += i == 0 ? 1U : 0U;
+    count_of_last += i == 8 ? 1U : 0U;
+  }
+  EXPECT_GT(count_of_last, 50U);
+  EXPECT_LT(count_of_last, moments);
+  EXPECT_LT(distance(last[8], last[0]), 2.0 * reach_m);
+}
+
 TEST_F(FleetProgram, RefusesWhatCannotBe) {
   expect_refused({"fleet", three_targets, "--loss", "1"}, "from 0 to 0.99");
   expect_refused({"fleet", "-"}, "must be a file");
@@ -675,6 +848,9 @@ TEST_F(FleetProgram, RefusesWhatCannotBe) {
   expect_refused({"fleet", BANYAN_SCENARIOS "/three-targets.toml", "--set", "swarm.robots=65535"},
                  "a fleet has at most 65534");
   expect_refused({"hub", three_targets}, "--key is missing");
+  expect_refused({"hub", three_targets, "--key", "k", "--print-robots", "--names", "cf_{1-8}"},
+                 "--names has 8 names, the scenario 9 robots");
+  expect_refused({"fleet", three_targets, "--names", "cf_{1-9},cf_01"}, "have the same id, 1");
   expect_refused({"hub", three_targets, "--key", "k", "--resume"}, "--resume needs --journal");
   write("loose.key", "1 " + std::string(64, 'a') + "\n");
   std::filesystem::permissions(home_ / "loose.key", std::filesystem::perms{0644});
@@ -687,6 +863,35 @@ TEST_F(FleetProgram, RefusesWhatCannotBe) {
   const auto robot = run({"robot", "--id", "3", "--hub", "127.0.0.1:9", "--key", "fleet.key", "--set", "no_such_m=1"});
   EXPECT_EQ(robot.code, 2);
   EXPECT_TRUE(has(robot.err, "no_such_m is unknown")) << robot.err;
+}
+
+TEST_F(FleetProgram, RobotsAreCalledByTheirNames) {
+  const auto printed = run({"hub", three_targets, "--key", "k", "--print-robots", "--names", "cf_{08-16}"});
+  EXPECT_EQ(printed.code, 0) << printed.err;
+  EXPECT_TRUE(printed.out.starts_with("banyan-robot --id 8 --hub")) << printed.out;
+  EXPECT_TRUE(has(printed.out, "  # cf_08\nbanyan-robot --id 9 ")) << printed.out;
+  ASSERT_EQ(run({"hub", "--new-key", "fleet.key"}).code, 0);
+  const auto alone = run({"hub", three_targets, "--key", "fleet.key", "--listen", "127.0.0.1:0", "--wait", "0.1",
+                          "--names", "cf_{08-16}"});
+  EXPECT_TRUE(has(alone.err, "nothing was heard of robot cf_08, cf_09, cf_10")) << alone.err;
+  const int port = free_port();
+  const pid_t blind = start({"hub", three_targets, "--key", "fleet.key", "--listen", "127.0.0.1:0", "--wait", "5",
+                             "--names", "cf_{08-16}", "--poses", "127.0.0.1:" + std::to_string(port)});
+  EXPECT_TRUE(becomes([&] {
+    say_to(port, "cf_08 0 0 0\n9 1 0 0\ncf_8 0 0 0\nwand 0 0 0\n");
+    return has(read("stderr.txt"), "the tracker sees wand");
+  }));
+  const Outcome outcome = finish(blind);
+  EXPECT_TRUE(has(outcome.err, "sees cf_8, which is no robot of this mission; did you mean cf_08?")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "did not see robot cf_10, cf_11, cf_12, cf_13, cf_14, cf_15, cf_16")) << outcome.err;
+}
+
+TEST_F(FleetProgram, AFleetMayHaveAnyIds) {
+  const Outcome outcome =
+      run({"fleet", three_targets, "--speed", "5", "--names", "cf_{1-8},lead_300", "--out", "result"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "COMPLETE after") && has(outcome.out, "in one piece at every tick")) << outcome.out;
+  EXPECT_FALSE(has(outcome.err, "refused")) << outcome.err;
 }
 
 TEST_F(FleetProgram, TheHubPrintsTheCommandOfEachRobot) {

@@ -34,7 +34,7 @@ std::span<const Column<Course::Row>> Course::columns() noexcept { return course_
 
 Course::Course(const world::World& start, Row& row) : rounding_s_(world::time_rounding_s(start.scenario())) {
   const world::Scenario& scenario = start.scenario();
-  row.robots = static_cast<std::uint32_t>(start.size());
+  row.robots = static_cast<std::uint32_t>(start.arrived());
   row.time_limit_s = world::time_limit_s(scenario);
   for (const world::Target& target : start.targets()) {
     const double way_m =

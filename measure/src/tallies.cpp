@@ -35,7 +35,7 @@ void Tallies::sum_up(const Moment& end, Row& row) {
     row.rejected_by += (row.rejected_by.empty() ? "" : ", ") + std::to_string(i);
   }
   row.messages = end.world.packets_sent();
-  const double robot_s = static_cast<double>(end.world.size()) * end.run.time_s;
+  const double robot_s = static_cast<double>(end.world.arrived()) * end.run.time_s;
   if (robot_s > 0.0)
     row.bytes_per_robot_s = static_cast<double>(row.messages * end.world.swarm().message_bytes()) / robot_s;
 }

@@ -243,9 +243,16 @@ void EventWatcher::watch_robots(const Frame& frame) {
   for (std::size_t i = 0; i < n; ++i) {
     watch_death(frame, i);
     if (!frame.robots[i].alive) continue;
+    if (!last_.robots[i].alive) {
+      add("join", static_cast<std::int64_t>(i), -1, robot_name(static_cast<std::int64_t>(i)) + " is back");
+      continue;
+    }
     watch_root(frame, i);
     watch_recruit(frame, i);
   }
+  for (std::size_t i = n; i < frame.robots.size() && started_; ++i)
+    add("join", static_cast<std::int64_t>(i), -1,
+        robot_name(static_cast<std::int64_t>(i)) + " has joined at " + place(frame.robots[i].position));
 }
 
 // A target that keeps moving is reported once. After a move, a new arrival is reported only if the

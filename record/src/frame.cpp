@@ -45,7 +45,7 @@ void capture_targets(const world::World& world, Frame& frame) {
     if (worker >= 0 && target.active) target_of[target.worker] = static_cast<std::int32_t>(frame.targets.size());
     frame.targets.push_back({target.position, worker, target.active});
   }
-  for (std::size_t i = 0; i < world.size(); ++i) {
+  for (std::size_t i = 0; i < frame.robots.size(); ++i) {
     const Report& state = world.reports()[i];
     if (state.serves < world.size()) frame.robots[i].target = target_of[state.serves];
   }
@@ -82,8 +82,8 @@ void mark_connected(const world::World& world, std::vector<RobotFrame>& robots) 
 void capture(const world::World& world, Frame& frame) {
   frame.tick = world.tick();
   frame.time_s = world.time_s();
-  frame.robots.resize(world.size());
-  for (std::size_t i = 0; i < world.size(); ++i) {
+  frame.robots.resize(world.arrived());
+  for (std::size_t i = 0; i < frame.robots.size(); ++i) {
     RobotFrame& robot = frame.robots[i];
     robot.position = world.positions()[i];
     robot.heading_rad = angle_of(world.headings()[i]);

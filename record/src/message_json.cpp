@@ -22,11 +22,11 @@ std::string_view word(std::string_view field, double value) noexcept {
 
 }  // namespace
 
-void capture_messages(const Swarm& swarm, MessageNumbers& into) {
+void capture_messages(const Swarm& swarm, std::size_t robots, MessageNumbers& into) {
   into.fields = swarm.message_fields();
-  into.numbers.resize(into.fields.size() * swarm.size());
+  into.numbers.resize(into.fields.size() * robots);
   const std::span<double> all(into.numbers);
-  for (std::size_t i = 0; i < swarm.size(); ++i)
+  for (std::size_t i = 0; i < robots; ++i)
     swarm.message_numbers(i, all.subspan(i * into.fields.size(), into.fields.size()));
 }
 

@@ -19,7 +19,7 @@ struct MessageNumbers {
   [[nodiscard]] bool empty() const noexcept { return numbers.empty(); }
 };
 // Reuses the memory of `into`.
-void capture_messages(const Swarm& swarm, MessageNumbers& into);
+void capture_messages(const Swarm& swarm, std::size_t robots, MessageNumbers& into);  // of the first so many
 
 // Whether /banyan/messages has the field. /banyan/frame has what is also in a report (label and want in
 // metres; id is the index). Vectors to an addressee that changes at every tick do not compress: these four would take

@@ -202,7 +202,7 @@ Recorder::~Recorder() {
 void Recorder::frame(const world::World& world, const measure::Tick& tick) {
   Impl& r = *impl_;
   capture(world, r.now);
-  if (r.options.messages) capture_messages(world.swarm(), r.last_messages);
+  if (r.options.messages) capture_messages(world.swarm(), world.arrived(), r.last_messages);
   r.record(r.started && still_holds(r.setting, world) ? r.setting : setting_of(world), tick);
 }
 

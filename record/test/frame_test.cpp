@@ -222,5 +222,44 @@ TEST(Capture, ARealRunCanBeRecordedExportedAndDrawn) {
   EXPECT_NE(draw_svg(recording, 10.0).find("frame test"), std::string::npos);
 }
 
+TEST(Capture, RobotsThatJoinAreInARecordingFromThenOn) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("run.mcap");
+  world::Scenario s = scenario(30, true);
+  s.events = {{.time_s = 2.0, .action = world::Join{30, {0.0, -2.0}}},
+              {.time_s = 3.0, .action = world::Die{7}},
+              {.time_s = 4.0, .action = world::Join{7, {0.0, -2.5}}}};
+  world::World world(s);
+  measure::Observer observer(world);
+  {
+    Recorder recorder(path, test::sample_provenance());
+    recorder.frame(world, observer.last());
+    for (int t = 0; t < 60; ++t) {
+      world.step();
+      recorder.frame(world, observer.observe(world));
+    }
+    recorder.finish(observer.result(world));
+  }
+  Recording recording(path);
+  EXPECT_TRUE(recording.warnings().empty());
+  EXPECT_EQ(recording.frame_at(1.9).robots.size(), 30U);
+  EXPECT_EQ(recording.frame_at(2.2).robots.size(), 31U);
+  EXPECT_TRUE(recording.frame_at(2.2).robots[30].alive);
+  EXPECT_FALSE(recording.frame_at(3.5).robots[7].alive);
+  EXPECT_TRUE(recording.frame_at(4.5).robots[7].alive);
+  std::vector<std::string> joins;
+  for (const RecordedEvent& event : recording.events())
+    if (event.kind == "join") joins.push_back(event.text);
+  ASSERT_EQ(joins.size(), 2U);
+  EXPECT_TRUE(joins[0].starts_with("robot 30 has joined at (")) << joins[0];
+  EXPECT_EQ(joins[1], "robot 7 is back");
+  const auto result = observer.result(world);
+  EXPECT_EQ(result.robots, 30U);
+  EXPECT_EQ(result.survivors, 31U);
+  EXPECT_EQ(result.deaths, 1U);
+  EXPECT_LT(result.driven_m, 0.2 * 6.0);  // no robot drives faster, and being put somewhere is no driving
+  EXPECT_NE(draw_svg(recording, 1.0).find("frame test"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace banyan::record

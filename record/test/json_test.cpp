@@ -117,7 +117,7 @@ TEST(Settings, HaveAllTheirFields) {
 template <class Message> std::vector<double> shown(const Message& message) {
   const auto swarm = test::saying(message);
   MessageNumbers numbers;
-  capture_messages(*swarm, numbers);
+  capture_messages(*swarm, swarm->size(), numbers);
   return numbers.numbers;
 }
 

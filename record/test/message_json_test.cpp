@@ -88,7 +88,7 @@ TEST(MessageFields, StandInTheDocumentInTheirOrderWithTheirSizes) {
 std::map<std::string_view, double> numbers_of(const ConvoyMessage& message) {
   const auto swarm = test::saying(message);
   MessageNumbers captured;
-  capture_messages(*swarm, captured);
+  capture_messages(*swarm, swarm->size(), captured);
   std::map<std::string_view, double> numbers;
   for (std::size_t f = 0; f < captured.fields.size(); ++f) numbers[captured.fields[f].name] = captured.numbers[f];
   return numbers;
@@ -125,7 +125,7 @@ class RecordedMessages : public ::testing::Test {
     for (int t = 0; t < 100; ++t) {
       world.step();
       recorder.frame(world, observer.observe(world));
-      if (world.tick() % 2 == 0) capture_messages(world.swarm(), sent_[world.tick()]);
+      if (world.tick() % 2 == 0) capture_messages(world.swarm(), world.size(), sent_[world.tick()]);
     }
     recorder.finish(observer.result(world));
   }

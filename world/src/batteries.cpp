@@ -20,6 +20,7 @@ Batteries::Batteries(const Scenario& scenario, std::size_t robots)
     const double less = model_.start_spread * to_uniform(bits(scenario.seed, Purpose::start_charge, i));
     levels_.push_back(std::max(0.01, model_.start_charge - less));
   }
+  first_levels_ = levels_;
 }
 
 // Share of a full battery, per second. It counts what the wheels are told to do, whether or not something is in the

@@ -23,6 +23,11 @@ class Batteries {
   std::size_t pass(double seconds, std::span<const Velocity> moving, std::span<const Vec2> positions,
                    std::span<const std::uint8_t> alive);
 
+  // Robot i has the charge with which it began.
+  void renew(std::size_t i) noexcept {
+    if (on()) levels_[i] = first_levels_[i];
+  }
+
   // Shares of a full battery, per robot; empty if there are no batteries.
   [[nodiscard]] std::span<const double> levels() const noexcept { return levels_; }
   // Per robot the place that charges it, -1: none; empty if there are no batteries.
@@ -38,7 +43,7 @@ class Batteries {
   double reach_m_ = 0.0;
   double wheel_distance_m_ = 0.0;
   double wheel_limit_m_s_ = 0.0;
-  std::vector<double> levels_;
+  std::vector<double> levels_, first_levels_;
   std::vector<std::int32_t> places_;
 };
 

@@ -121,6 +121,10 @@ class Box2d final : public Bodies {
   }
 
   void remove(std::size_t i) override { gone_[i] = 1; }
+  void arrive(std::size_t i) override {
+    gone_[i] = 0;
+    momentum_[i] = {};
+  }
 
   void set_obstacles(std::span<const Obstacle> obstacles) override {
     obstacles_.assign(obstacles.begin(), obstacles.end());

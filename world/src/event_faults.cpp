@@ -19,6 +19,8 @@ struct Sequel {
   std::size_t most;     // the largest of `served` so far
   std::set<std::size_t> removed;
   std::vector<Obstacle> obstacles;
+  std::size_t robots;  // that have been there
+  std::size_t places;
 };
 
 // When a run ends. Taken once for all events: it depends on all targets and all events.
@@ -44,9 +46,8 @@ struct End {
 // Checks that what an event refers to exists when it happens.
 class CheckEventFits {
  public:
-  CheckEventFits(FaultList& list, const Scenario& scenario, const End& end, std::size_t index, std::size_t robots,
-                 const Sequel& before)
-      : list_(list), scenario_(scenario), key_(element("events", index)), robots_(robots), before_(before) {
+  CheckEventFits(FaultList& list, const Scenario& scenario, const End& end, std::size_t index, const Sequel& before)
+      : list_(list), scenario_(scenario), key_(element("events", index)), before_(before) {
     const Event& event = scenario.events[index];
     if (event.time_s >= end.limit_s)
       list.warn(key_ + ".time_s",
@@ -69,13 +70,23 @@ class CheckEventFits {
                           moved(before_.obstacles[move.obstacle], move.position));
   }
   void operator()(const RemoveObstacle& remove) const { (void)obstacle(remove.obstacle); }
+  void operator()(const Join& join) const {
+    if (join.robot > before_.robots)
+      list_.fail(key_ + ".robot", "the next robot to join at that time is " + std::to_string(before_.robots) +
+                                      "; robots join in the order of their indices");
+    if (join.robot >= before_.places)
+      list_.fail(key_ + ".robot", "there is no place for another robot; there are " + std::to_string(before_.places));
+    const double room_m = clearance(before_.obstacles, join.position);
+    check_target_room(list_, scenario_, room_m < scenario_.robot.radius_m ? 0.0 : room_m, key_ + ".position_m",
+                      "the robot that joins", join.position);
+  }
   template <class Other> void operator()(const Other& refers_to_nothing) const { static_cast<void>(refers_to_nothing); }
 
  private:
   void robot(std::size_t i) const {
-    if (i >= robots_)
+    if (i >= before_.robots)
       list_.fail(key_ + ".robot",
-                 "there is no robot " + std::to_string(i) + "; the last one is " + std::to_string(robots_ - 1));
+                 "there is no robot " + std::to_string(i) + "; the last one is " + std::to_string(before_.robots - 1));
   }
   void target(std::size_t i) const {
     if (i >= before_.targets)
@@ -96,12 +107,12 @@ class CheckEventFits {
   FaultList& list_;
   const Scenario& scenario_;
   const std::string key_;
-  std::size_t robots_;
   const Sequel& before_;
 };
 
 void follow(Sequel& sequel, const Event& event) {
   change(sequel.obstacles, event.action);
+  if (const auto* join = std::get_if<Join>(&event.action)) sequel.robots = std::max(sequel.robots, join->robot + 1);
   if (std::holds_alternative<AddTarget>(event.action)) {
     ++sequel.targets;
     sequel.most = std::max(sequel.most, ++sequel.served);
@@ -124,15 +135,20 @@ std::size_t check_in_order(FaultList& list, const Scenario& scenario, std::size_
     return waits(i) && std::holds_alternative<AddTarget>(events[i].action);
   }));
   const End end(scenario);
-  Sequel sequel{targets + adds_late, targets, targets, {}, scenario.obstacles};
+  Sequel sequel{targets + adds_late, targets, targets, {}, scenario.obstacles, robots, place_count(scenario)};
   for (const std::size_t i : order) {
     if (waits(i)) continue;
     // Its constructor is the check. NOLINTNEXTLINE(bugprone-unused-raii)
-    CheckEventFits(list, scenario, end, i, robots, sequel);
+    CheckEventFits(list, scenario, end, i, sequel);
     follow(sequel, events[i]);
   }
   for (const std::size_t i : order)
-    if (waits(i)) CheckEventFits(list, scenario, end, i, robots, sequel);
+    if (waits(i)) {
+      // NOLINTNEXTLINE(bugprone-unused-raii): likewise
+      CheckEventFits(list, scenario, end, i, sequel);
+      if (const auto* join = std::get_if<Join>(&events[i].action); join != nullptr && join->robot == sequel.robots)
+        ++sequel.robots;
+    }
   return sequel.most + adds_late;
 }
 
@@ -158,7 +174,8 @@ std::vector<Fault> event_faults(const Scenario& scenario, const Present* now) {
   if (scenario.events[last].when != Event::When::time)
     list.fail(element("events", last) + ".when", "what somebody does happens now");
   // NOLINTNEXTLINE(bugprone-unused-raii): its constructor is the check
-  CheckEventFits(list, scenario, End(scenario), last, robots, {now->targets, 0, 0, {}, now->obstacles});
+  CheckEventFits(list, scenario, End(scenario), last,
+                 {now->targets, 0, 0, {}, now->obstacles, now->robots, now->places});
   return list.take();
 }
 

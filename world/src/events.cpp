@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What happens to a world at the beginning of a tick: targets move, robots die, freeze or fall silent,
-// missions change.
+// missions change, robots join.
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -115,6 +115,7 @@ void World::Impl::apply(const EventQueue::Entry& entry) {
           [&](const MoveObstacle&) { change_obstacles(entry.event.action); },
           [&](const AddObstacle&) { change_obstacles(entry.event.action); },
           [&](const RemoveObstacle&) { change_obstacles(entry.event.action); },
+          [&](const Join& e) { join(e.robot, e.position); },
       },
       entry.event.action);
 }
@@ -131,6 +132,26 @@ void World::Impl::die(std::size_t i) {
   if (scenario.robot.dead_bodies) return;
   bodies->remove(i);
   radio.forget(static_cast<std::uint32_t>(i));
+}
+
+// Nothing if it is there already, or if one before it has not come yet.
+void World::Impl::join(std::size_t i, Vec2 position) {
+  if (i >= alive.size() || i > arrived || alive[i] != 0) return;
+  arrived = std::max(arrived, i + 1);
+  alive[i] = 1;
+  frozen_until[i] = 0;
+  target_of[i] = -1;
+  given_up[i] = nobody;
+  commands[i] = {};
+  poses.position[i] = position;
+  bodies->arrive(i);
+  batteries.renew(i);
+  if (i < clocked.size()) {
+    clocked[i].shift = {};
+    clocked[i].turn = 0.0;
+  }
+  swarm->restart(i);
+  reports[i] = swarm->report(i);
 }
 
 // How many die is fixed when the event begins; which robots, is drawn each time.
@@ -245,6 +266,7 @@ Scenario World::Impl::with(const Event& event) const {
 // Settings that an event can change.
 void World::Impl::add_events(Digest& digest) const noexcept {
   digest.add(silent_until);
+  if (alive.size() != robot_count(scenario)) digest.add(arrived);
   digest.add(line_of_sight);
   digest.add(obstacles.size());
   for (const Obstacle& obstacle : obstacles) {

@@ -79,6 +79,8 @@ class Linear final : public Bodies {
     }
   }
 
+  void arrive(std::size_t i) override { velocity_[i] = {}; }
+
   void set_obstacles(std::span<const Obstacle> obstacles) override {
     obstacles_.assign(obstacles.begin(), obstacles.end());
   }

@@ -2,10 +2,13 @@
 // Robots stand at the points of their layout (start_layout.hpp), each a little off, in a random heading.
 #include "banyan/world/placement.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "banyan/controller/core/trig.hpp"
+#include "banyan/world/obstacles.hpp"
 #include "banyan/world/random.hpp"
+#include "banyan/world/world.hpp"
 #include "start_layout.hpp"
 
 namespace banyan::world {
@@ -51,8 +54,20 @@ Poses place(const Scenario& scenario) {
   return poses;
 }
 
+Poses place_all(const Scenario& scenario) {
+  constexpr double outside = 300.0, apart = 4.0;  // C; all that a scenario names lies within 200
+  Poses poses = place(scenario);
+  const std::size_t first = poses.position.size(), places = place_count(scenario);
+  for (std::size_t i = first; i < places; ++i) {
+    const double along = outside + apart * static_cast<double>(i - first);
+    poses.position.push_back(scenario.swarm.start.center - scenario.radio.range_m * Vec2{outside, along});
+    poses.heading.push_back(random_heading(scenario.seed, i));
+  }
+  return poses;
+}
+
 Assignment assign(const Scenario& scenario, const Poses& poses, const std::vector<Vec2>& targets) {
-  const std::size_t n = poses.position.size();
+  const std::size_t n = std::min(poses.position.size(), robot_count(scenario));
   Assignment result;
   std::vector<std::uint8_t> taken(n, 0);
   if (scenario.swarm.root) taken[*scenario.swarm.root] = 1;
@@ -73,6 +88,29 @@ Assignment assign(const Scenario& scenario, const Poses& poses, const std::vecto
     if (draw-- == 0) break;
   }
   return result;
+}
+
+std::optional<Vec2> free_place(const World& world) {
+  constexpr int directions = 12;
+  constexpr double slack = 0.99;
+  const double pitch_m = start_pitch_m(world.scenario()), radius_m = world.scenario().robot.radius_m;
+  const auto positions = world.positions().first(world.arrived());
+  const auto is_free = [&](Vec2 here, Vec2 p) {
+    for (const Vec2 other : positions)
+      if (distance(other, p) < slack * pitch_m) return false;
+    const auto hides = [&](const Obstacle& o) { return blocks(o, here, p); };
+    return clearance(world.obstacles(), p) > radius_m &&
+           std::none_of(world.obstacles().begin(), world.obstacles().end(), hides);
+  };
+  for (const bool spare : {true, false})
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      if (world.alive()[i] == 0 || (world.reports()[i].role == Role::spare) != spare) continue;
+      for (int k = 0; k < directions; ++k) {
+        const Vec2 p = positions[i] + pitch_m * unit_vector(2.0 * pi<double> * k / directions);
+        if (is_free(positions[i], p)) return p;
+      }
+    }
+  return std::nullopt;
 }
 
 }  // namespace banyan::world

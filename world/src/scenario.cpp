@@ -98,6 +98,13 @@ std::size_t robot_count(const Scenario& scenario) {
   return std::max(robots_for(swarm.redundancy * length / redundancy_edge_m(scenario)), targets.size() + places + 1);
 }
 
+std::size_t place_count(const Scenario& scenario) {
+  std::size_t places = robot_count(scenario) + scenario.swarm.room;
+  for (const Event& event : scenario.events)
+    if (const auto* join = std::get_if<Join>(&event.action)) places = std::max(places, join->robot + 1);
+  return places;
+}
+
 double length_scale_m(const Scenario& scenario) noexcept {
   return std::max(scenario.radio.range_m, khepera_ranges * scenario.robot.radius_m);
 }

@@ -315,8 +315,8 @@ constexpr Key<Event> event_rows[] = {
      "complete, all targets are held at once for the first time, by a tree in one piece. An event whose moment never "
      "comes never happens"},
     {"events.kind", of<&Event::action>, "", any_value, "what happens", {.required = true}},
-    {"events.robot", of<&Die::robot, &Freeze::robot>, "", any_robot,
-     "index of the robot, counted from 0", {.required = true}},
+    {"events.robot", of<&Die::robot, &Freeze::robot, &Join::robot>, "", any_robot,
+     "index of the robot, counted from 0; one that joins is the next one, or one that has died", {.required = true}},
     {"events.duration_s", of<&Freeze::duration_s, &Blackout::duration_s>, "s", any_time,
      "how long the robot stands still (freeze; 0: for good) or no robot hears anything (blackout; above 0)"},
     {"events.loss", of<&SetLoss::loss>, "", any_share, "the new radio.loss", {.required = true}},
@@ -327,8 +327,9 @@ constexpr Key<Event> event_rows[] = {
     {"events.obstacle", of<&MoveObstacle::obstacle, &RemoveObstacle::obstacle>, "", {0.0, 1e6},
      "index of the obstacle, counted from 0 among those there at that time", {.required = true}},
     {"events.position_m", of<&MoveTarget::position, &AddTarget::position, &MoveObstacle::position,
-        &AddObstacle::position>, "m", anywhere,
-     "where the target is from then on, or drives to; where the centre of the obstacle is (of a wall, its middle)",
+        &AddObstacle::position, &Join::position>, "m", anywhere,
+     "where the target is from then on, or drives to; where the centre of the obstacle is (of a wall, its middle); "
+     "where the robot stands that joins",
      {.required = true}},
     {"events.radius_m", of<&AddObstacle::radius_m>, "m", any_length, "radius of the disc", {.required = true}},
     {"events.speed_m_s", of<&MoveTarget::speed_m_s>, "m/s", {0.0, 1000.0},

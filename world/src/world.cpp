@@ -74,7 +74,7 @@ World::Impl::Impl(const Scenario& s, const Algorithm& algorithm_)
       loss(s.radio.loss),
       line_of_sight(s.radio.line_of_sight),
       obstacles(s.obstacles),
-      poses(place(s)),
+      poses(place_all(s)),
       bodies(make_bodies(s, poses)),
       radio(s, poses.position.size()),
       proximity(s),
@@ -84,8 +84,10 @@ World::Impl::Impl(const Scenario& s, const Algorithm& algorithm_)
   const std::size_t n = poses.position.size();
   const std::vector<Vec2> positions = target_positions(s);
   mission_target_count = mission_targets(s).size();
+  arrived = robot_count(s);
   const Assignment assignment = assign(s, poses, positions);
-  alive.assign(n, 1);
+  alive.assign(n, 0);
+  std::fill_n(alive.begin(), arrived, std::uint8_t{1});
   if (s.radio.sight_leak > 0.0) raised.assign(n, 0);
   frozen_until.assign(n, 0);
   target_of.assign(n, -1);
@@ -121,6 +123,7 @@ World::Impl::Impl(const Impl& o)
       batteries(o.batteries),
       targets(o.targets),
       courses(o.courses),
+      arrived(o.arrived),
       alive(o.alive),
       raised(o.raised),
       frozen_until(o.frozen_until),
@@ -381,9 +384,12 @@ void World::step() {
 void World::decide() { impl_->swarm->decide(impl_->commands, impl_->reports); }
 
 std::vector<Fault> World::faults_now(const Event& event) const {
-  Present present{impl_->targets.size(), impl_->obstacles};
-  impl_->event_queue.each_due(time_s() + time_rounding_s(scenario()),
-                              [&](const Event& sooner) { change(present.obstacles, sooner.action); });
+  Present present{impl_->targets.size(), impl_->obstacles, impl_->arrived, size()};
+  impl_->event_queue.each_due(time_s() + time_rounding_s(scenario()), [&](const Event& sooner) {
+    change(present.obstacles, sooner.action);
+    if (const auto* join = std::get_if<Join>(&sooner.action))
+      present.robots = std::max(present.robots, join->robot + 1);
+  });
   std::vector<Fault> found = event_faults(impl_->with(event), &present);
   std::erase_if(found, [](const Fault& fault) { return fault.warning; });
   return found;
@@ -405,6 +411,7 @@ std::span<const Vec2> World::positions() const noexcept { return impl_->poses.po
 std::span<const Vec2> World::headings() const noexcept { return impl_->poses.heading; }
 std::span<const Report> World::reports() const noexcept { return impl_->reports; }
 std::span<const std::uint8_t> World::alive() const noexcept { return impl_->alive; }
+std::size_t World::arrived() const noexcept { return impl_->arrived; }
 std::span<const Target> World::targets() const noexcept { return impl_->targets; }
 std::span<const Obstacle> World::obstacles() const noexcept { return impl_->obstacles; }
 bool World::line_of_sight() const noexcept { return impl_->line_of_sight; }

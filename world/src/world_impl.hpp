@@ -93,6 +93,7 @@ struct World::Impl {
   [[nodiscard]] bool among(Kill::Of of, std::size_t i) const noexcept;
   [[nodiscard]] std::size_t count_among(Kill::Of of) const noexcept;
   void die(std::size_t i);
+  void join(std::size_t i, Vec2 position);
   [[nodiscard]] std::uint64_t tick_after(double duration_s) const noexcept;
   void move_target(std::size_t target, Vec2 position, double speed_m_s);
   void assign_target(Vec2 position);
@@ -128,6 +129,7 @@ struct World::Impl {
   Batteries batteries;
   std::vector<Target> targets;
   std::vector<TargetMotion> courses;  // one per target
+  std::size_t arrived = 0;            // robots from here on have not joined yet: they are not alive, and far outside
   std::vector<std::uint8_t> alive;
   std::vector<std::uint8_t> raised;         // antennas; empty unless sight leaks
   std::vector<std::uint64_t> frozen_until;  // tick; 0: not frozen

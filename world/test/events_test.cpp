@@ -278,5 +278,96 @@ TEST(Events, WhoeverGaveUpATargetCanBeSentToAnother) {
   EXPECT_EQ(world.reports()[worker].serves, worker);
 }
 
+// Whatever their bodies, radio and sensors: those who are to join later change nothing before.
+TEST(Join, UntilThenTheRobotIsNotThere) {
+  for (const BodyModel body : {BodyModel::disks, BodyModel::box2d, BodyModel::linear}) {
+    if (body == BodyModel::box2d && !has_box2d()) continue;
+    Scenario s = ring("convoy", 12, 2, 4.0, 3);
+    s.robot.body = body;
+    s.radio.line_of_sight = true;
+    s.events = {event(2.0, Die{4})};
+    World without(s);
+    s.events.push_back(event(3.0, Join{12, {0.0, -2.0}}));
+    World with(s);
+    for (int t = 0; t < 30; ++t) {
+      without.step();
+      with.step();
+      ASSERT_EQ(with.arrived(), 12U);
+      ASSERT_EQ(with.alive()[12], 0);
+      for (std::size_t i = 0; i < 12; ++i) {
+        ASSERT_EQ(with.positions()[i], without.positions()[i]) << i << " at tick " << t;
+        ASSERT_EQ(said(with, i), said(without, i)) << i << " at tick " << t;
+      }
+    }
+    EXPECT_EQ(with.packets_sent(), without.packets_sent());
+    with.step();
+    EXPECT_EQ(with.arrived(), 13U);
+    EXPECT_EQ(with.alive()[12], 1);
+    EXPECT_FALSE(with.links(12).empty());
+    EXPECT_LT(distance(with.positions()[12], {0.0, -2.0}), 0.05);
+    EXPECT_EQ(with.deaths(), 1U);
+  }
+}
+
+TEST(Join, MakesASpareThatTakesPart) {
+  for (const char* algorithm : {"outwards", "inwards", "convoy", "caravan"}) {
+    for (const bool clocks : {false, true}) {
+      Scenario s = ring(algorithm, 9, 2, 2.5, 5);
+      s.clocks.asynchronous = clocks;
+      s.events = {event(1.0, Join{9, {0.0, -1.5}})};
+      World world(s);
+      for (int t = 0; t < 15; ++t) world.step();
+      EXPECT_EQ(world.reports()[9].role, Role::spare) << algorithm;
+      bool held = false;
+      for (int t = 0; t < 3000 && !held; ++t) {
+        world.step();
+        held = world.holder(0) && world.holder(1);
+        ASSERT_FALSE(world.links(9).empty()) << algorithm << " at tick " << t;
+      }
+      EXPECT_TRUE(held) << algorithm;
+    }
+  }
+}
+
+TEST(Join, WhoHasDiedMayComeBackAndKnowsNothing) {
+  for (const bool bodies_stay : {true, false}) {
+    for (const BodyModel body : {BodyModel::disks, BodyModel::box2d, BodyModel::linear}) {
+      if (body == BodyModel::box2d && !has_box2d()) continue;
+      Scenario s = ring("convoy", 12, 2, 4.0, 3);
+      s.robot.body = body;
+      s.robot.dead_bodies = bodies_stay;
+      const std::size_t worker = World(s).targets()[0].worker;
+      s.events = {event(4.0, Die{worker}), event(6.0, Join{worker, {0.0, -1.0}})};
+      World world(s);
+      const std::vector<std::uint8_t> first_words = said(world, worker);
+      for (int t = 0; t < 60; ++t) world.step();
+      EXPECT_EQ(world.alive()[worker], 0);
+      EXPECT_NE(said(world, worker), first_words);
+      world.step();
+      EXPECT_EQ(world.alive()[worker], 1);
+      EXPECT_EQ(world.reports()[worker].role, Role::spare);
+      EXPECT_EQ(world.reports()[worker].serves, nobody);
+      EXPECT_LT(distance(world.positions()[worker], {0.0, -1.0}), 0.05);
+      EXPECT_FALSE(world.links(worker).empty());
+      const Vec2 here = world.positions()[worker];
+      for (int t = 0; t < 100; ++t) world.step();
+      EXPECT_GT(distance(world.positions()[worker], here), 0.0) << "it has a body that moves";
+      EXPECT_EQ(world.arrived(), 12U);
+    }
+  }
+}
+
+TEST(Join, OfARobotThatIsThereChangesNothing) {
+  Scenario s = ring("convoy", 9, 2, 3.0, 3);
+  World plain(s);
+  s.events = {event(2.0, Join{4, {0.0, -1.0}})};
+  World world(s);
+  for (int t = 0; t < 40; ++t) {
+    plain.step();
+    world.step();
+  }
+  for (std::size_t i = 0; i < world.size(); ++i) EXPECT_EQ(world.positions()[i], plain.positions()[i]);
+}
+
 }  // namespace
 }  // namespace banyan::world

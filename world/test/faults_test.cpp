@@ -281,6 +281,14 @@ const std::vector<Case>& cases() {
        [](Scenario& s) {
          s.swarm.robots = 12, s.events = {event(Die{11}), event(Freeze{12})};
        }},
+      {"events[0].robot", "the next robot to join at that time is 12; robots join in the order of their indices",
+       [](Scenario& s) {
+         s.swarm.robots = 12, s.events = {event(Join{13}, 1), event(Join{12}, 2)};
+       }},
+      {"events[0].position_m", "the robot that joins at (5, 5) lies inside an obstacle",
+       [](Scenario& s) {
+         s.swarm.robots = 12, s.obstacles = {Disc{{5, 5}, 1}}, s.events = {event(Join{12, {5, 5}})};
+       }},
       {"events[0].target", "there is no target 3", [](Scenario& s) { s.events = {event(MoveTarget{3})}; }},
       {"events[0].target", "at that time",
        [](Scenario& s) {

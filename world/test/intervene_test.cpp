@@ -37,6 +37,7 @@ Scenario arena(Random& random, BodyModel body) {
   s.radio.latency_ticks = 1 + static_cast<int>(below(random, 2));
   s.obstacles = {Disc{{-3.0, 3.0}, 0.3}, Box{{3.0, 3.0}, {0.5, 0.3}, 0.4}, Wall{{-1.0, -3.0}, {1.0, -3.2}}};
   s.events = {{.time_s = 4.0, .action = SetLoss{0.1}}, {1.0, Event::When::half_way, Kill{}}};
+  s.swarm.room = 2;
   return s;
 }
 
@@ -59,6 +60,7 @@ Action any_action(Random& random, const World& world) {
     case 8: return SetLineOfSight{below(random, 2) == 0};
     case 9: return AddObstacle{position, between(random, 0.05, 0.4)};
     case 10: return RemoveObstacle{below(random, world.obstacles().size() + 1)};  // one more than there are
+    case 11: return Join{below(random, std::min(world.arrived() + 1, world.size())), position};
     default: return MoveObstacle{below(random, world.obstacles().size() + 1), position};
   }
 }
@@ -242,6 +244,8 @@ TEST(Intervene, RefusesWhatCannotHappenInTheWordsOfFaults) {
   const std::uint64_t before = world.hash();
   const std::pair<Event, std::string> cases[] = {
       {{.action = Die{5}}, "events[1].robot: there is no robot 5; the last one is 4"},
+      {{.action = Join{6}}, "events[1].robot: the next robot to join at that time is 5; robots join in the order of"},
+      {{.action = Join{5}}, "events[1].robot: there is no place for another robot; there are 5"},
       {{.action = MoveTarget{2}}, "events[1].target: there is no target 2 at that time; the last one is 1"},
       {{.action = RemoveTarget{2}}, "events[1].target: there is no target 2"},
       {{.action = MoveObstacle{1}}, "events[1].obstacle: there is no obstacle 1; the last one is 0"},

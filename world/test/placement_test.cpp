@@ -8,6 +8,8 @@
 #include <set>
 
 #include "banyan/world/obstacles.hpp"
+#include "banyan/world/world.hpp"
+#include "plain_scenario.hpp"
 
 namespace banyan::world {
 namespace {
@@ -184,6 +186,43 @@ TEST(Assignment, TheLastRobotIsTheRoot) {
   const Scenario scenario = with_robots(3);
   const Assignment a = assign(scenario, place(scenario), {{3, 0}, {-3, 0}});
   EXPECT_EQ(a.worker[0] + a.worker[1] + a.root, 0U + 1U + 2U);
+}
+
+TEST(FreePlace, IsBesideALivingRobotAndClearOfAllOthersAndOfObstacles) {
+  for (std::uint64_t seed = 1; seed < 20; ++seed) {
+    Scenario s = plain_scenario();
+    s.seed = seed;
+    s.swarm.robots = 20;
+    s.swarm.room = 12;
+    s.radio.line_of_sight = true;
+    s.targets = RingTargets{3, 4.0};
+    s.obstacles = {Disc{{1.2, 0.0}, 0.4}, Wall{{-1.5, -1.0}, {1.5, -1.0}}};
+    s.events = {{.time_s = 0.5, .action = Die{2}}};
+    World world(s);
+    world.step();
+    for (std::size_t robot = 20; robot < 32; ++robot) {
+      const auto place = free_place(world);
+      ASSERT_TRUE(place);
+      double nearest_m = 1e9;
+      for (std::size_t i = 0; i < world.arrived(); ++i)
+        nearest_m = std::min(nearest_m, distance(world.positions()[i], *place));
+      EXPECT_GT(nearest_m, 0.9 * start_pitch_m(s));
+      EXPECT_GT(clearance(world.obstacles(), *place), s.robot.radius_m);
+      world.intervene({.action = Join{robot, *place}});
+      world.step();
+      EXPECT_FALSE(world.links(robot).empty()) << "seed " << seed;
+    }
+    EXPECT_EQ(world.arrived(), 32U);
+  }
+}
+
+TEST(FreePlace, IsNowhereIfNobodyLives) {
+  Scenario s = plain_scenario();
+  s.swarm.robots = 5;
+  s.events = {{.time_s = 0.0, .action = Kill{.count = 5}}};
+  World world(s);
+  world.step();
+  EXPECT_FALSE(free_place(world));
 }
 
 }  // namespace

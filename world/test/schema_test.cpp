@@ -103,8 +103,8 @@ TEST(Schema, EveryKeyIsThereOnceAndWhatItNamesExists) {
 TEST(Schema, TellsWithWhichAlternativesAKeyApplies) {
   const auto with = [](std::string_view path) { return applies_with(*find_key(event_keys(), path), event_keys()); };
   using Words = std::vector<std::string_view>;
-  EXPECT_EQ(with("events.robot"), (Words{"die", "freeze"}));
-  EXPECT_EQ(with("events.position_m"), (Words{"move_target", "add_target", "move_obstacle", "add_obstacle"}));
+  EXPECT_EQ(with("events.robot"), (Words{"die", "freeze", "join"}));
+  EXPECT_EQ(with("events.position_m"), (Words{"move_target", "add_target", "move_obstacle", "add_obstacle", "join"}));
   EXPECT_EQ(with("events.time_s"), Words{});
   const auto keys = scenario_keys();
   const Words all_but_list{"hexagonal", "grid", "line", "ring", "cross", "bridge", "random"};

@@ -22,7 +22,7 @@ std::string event_fault(const world::Event& event) {
         if constexpr (std::is_same_v<Action, world::Freeze> || std::is_same_v<Action, world::SetLoss> ||
                       std::is_same_v<Action, world::Blackout> || std::is_same_v<Action, world::SetLineOfSight> ||
                       std::is_same_v<Action, world::MoveObstacle> || std::is_same_v<Action, world::AddObstacle> ||
-                      std::is_same_v<Action, world::RemoveObstacle>)
+                      std::is_same_v<Action, world::RemoveObstacle> || std::is_same_v<Action, world::Join>)
           return std::string(Action::kind) + " cannot happen in ARGoS";
         else return {};
       },

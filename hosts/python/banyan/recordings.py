@@ -44,6 +44,8 @@ class Recording(_core.Recording):
     roles             (F, N)     spare 0, connector 1, worker 2, root 3
     parents, old_parents, serves (F, N)  robots, and for serves the target's index; -1: nobody
     alive             (F, N)     bool
+
+    A robot that joins later is not alive before, and its position is NaN.
     """
 
     _arrays: dict[str, np.ndarray] | None = None

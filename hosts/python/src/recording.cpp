@@ -2,7 +2,9 @@
 // Recordings and frames as arrays and pictures.
 #include "banyan/record/recording.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "banyan/record/json.hpp"
 #include "frame_binding.hpp"
@@ -48,16 +50,18 @@ py::dict arrays_of_frame(const record::Frame& frame) {
   return columns;
 }
 
-// All frames, frame by frame.
+// All frames, frame by frame. Robots that have not joined yet are nowhere, and not alive.
 struct Film {
   std::vector<double> time_s, positions, headings, targets;
   std::vector<std::int64_t> ticks;
   std::vector<std::uint8_t> roles, alive;
   std::vector<std::int32_t> parents, old_parents, serves;
+  std::vector<std::size_t> counts;  // of robots, by frame
   std::size_t robots = 0, target_count = 0;
 
   void add(const record::Frame& frame) {
-    robots = frame.robots.size();
+    counts.push_back(frame.robots.size());
+    robots = std::max(robots, frame.robots.size());
     time_s.push_back(frame.time_s);
     ticks.push_back(static_cast<std::int64_t>(frame.tick));
     for (const record::RobotFrame& robot : frame.robots) {
@@ -70,9 +74,26 @@ struct Film {
       serves.push_back(robot.target);
     }
   }
+
+  // So that each frame has `robots` of them, with `per_robot` values.
+  template <class T>
+  [[nodiscard]] std::vector<T> whole(std::vector<T> values, T absent, std::size_t per_robot = 1) const {
+    if (values.size() == counts.size() * robots * per_robot) return values;
+    std::vector<T> all;
+    all.reserve(counts.size() * robots * per_robot);
+    auto from = values.begin();
+    for (const std::size_t count : counts) {
+      const auto to = from + static_cast<std::ptrdiff_t>(count * per_robot);
+      all.insert(all.end(), from, to);
+      all.insert(all.end(), (robots - count) * per_robot, absent);
+      from = to;
+    }
+    return all;
+  }
 };
 
 py::dict arrays_of_recording(record::Recording& recording, std::size_t every) {
+  constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
   Film film;
   CtrlC interrupt;  // other threads wait: a recording is for one at a time
   recording.for_each(
@@ -87,13 +108,13 @@ py::dict arrays_of_recording(record::Recording& recording, std::size_t every) {
   py::dict arrays;
   arrays["time_s"] = taken(std::move(film.time_s), {frames});
   arrays["tick"] = taken(std::move(film.ticks), {frames});
-  arrays["positions"] = taken(std::move(film.positions), {frames, robots, 2});
-  arrays["headings_rad"] = taken(std::move(film.headings), {frames, robots});
-  arrays["roles"] = taken(std::move(film.roles), {frames, robots});
-  arrays["alive"] = taken(std::move(film.alive), {frames, robots}).attr("view")("bool");
-  arrays["parents"] = taken(std::move(film.parents), {frames, robots});
-  arrays["old_parents"] = taken(std::move(film.old_parents), {frames, robots});
-  arrays["serves"] = taken(std::move(film.serves), {frames, robots});
+  arrays["positions"] = taken(film.whole(std::move(film.positions), nowhere, 2), {frames, robots, 2});
+  arrays["headings_rad"] = taken(film.whole(std::move(film.headings), nowhere), {frames, robots});
+  arrays["roles"] = taken(film.whole(std::move(film.roles), std::uint8_t{0}), {frames, robots});
+  arrays["alive"] = taken(film.whole(std::move(film.alive), std::uint8_t{0}), {frames, robots}).attr("view")("bool");
+  arrays["parents"] = taken(film.whole(std::move(film.parents), std::int32_t{-1}), {frames, robots});
+  arrays["old_parents"] = taken(film.whole(std::move(film.old_parents), std::int32_t{-1}), {frames, robots});
+  arrays["serves"] = taken(film.whole(std::move(film.serves), std::int32_t{-1}), {frames, robots});
   return arrays;
 }
 

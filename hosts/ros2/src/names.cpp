@@ -19,10 +19,24 @@ bool is_word(std::string_view word) noexcept {
 }  // namespace
 
 std::string of_robot(std::string_view pattern, std::size_t id) {
-  std::string name(pattern);
+  std::string name;
   const std::string number = std::to_string(id);
-  for (std::size_t at = name.find("{}"); at != std::string::npos; at = name.find("{}", at + number.size()))
-    name.replace(at, 2, number);
+  while (!pattern.empty()) {
+    const std::size_t open = std::min(pattern.find('{'), pattern.size());
+    name += pattern.substr(0, open);
+    pattern.remove_prefix(open);
+    if (pattern.starts_with("{:0") && pattern.size() > 4 && is_digit(pattern[3]) && pattern[4] == '}') {
+      const auto wanted = static_cast<std::size_t>(pattern[3] - '0');
+      name += std::string(wanted - std::min(wanted, number.size()), '0') + number;
+      pattern.remove_prefix(5);
+    } else if (pattern.starts_with("{}")) {
+      name += number;
+      pattern.remove_prefix(2);
+    } else if (!pattern.empty()) {
+      name += pattern.front();
+      pattern.remove_prefix(1);
+    }
+  }
   return name;
 }
 

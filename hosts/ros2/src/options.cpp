@@ -6,6 +6,7 @@
 
 #include "banyan/hosts/ros2/names.hpp"
 #include "banyan/hosts/udp/command_line.hpp"
+#include "banyan/hosts/udp/roster.hpp"
 
 namespace banyan::ros2 {
 namespace {
@@ -18,8 +19,10 @@ using udp::OptionError;
 constexpr double most_robots = 1000, largest_id = 60000, largest_domain = 232;
 
 void add_options(CLI::App& app, Options& o) {
-  add_number(app, "--robots", o.robots, 1, most_robots, "number of robots, with ids from 0; this or --id is required",
-             true);
+  add_number(app, "--robots", o.robots, 1, most_robots,
+             "number of robots, with ids from 0; this, --names or --id is required", true);
+  add_text(app, "--names", "NAMES", o.names,
+           "robots with these names, as of banyan hub, their ids one after the other: cf_{01-09}; {} is then the name");
   add_number(app, "--id", o.first, 0, largest_id, "one robot alone, with this id", true);
   add_text(app, "--poses", "ADDRESS:PORT", o.poses, "send where robots are to banyan hub --poses there");
   add_text(app, "--bases", "ADDRESS:PORT", o.bases,
@@ -80,16 +83,42 @@ Options from_environment(const Environment& environment) {
   return options;
 }
 
+// Whether names of this pattern differ from robot to robot.
+bool tells_apart(const std::string& pattern) { return of_robot(pattern, 0) != of_robot(pattern, 1); }
+
+// In names of topics and frames, robots are called by their names.
+void take_names(const CLI::App& app, Options& options) {
+  if (options.robots > 0 || app.count("--id") > 0)
+    throw OptionError("--names, --robots and --id exclude each other: give one of them");
+  const udp::Roster roster(options.names);
+  options.first = roster.id(0);
+  options.robots = roster.size();
+  const std::string& first = roster.name(0);
+  const std::size_t begin = first.find_last_not_of("0123456789") + 1, digits = first.size() - begin;
+  const std::string call =
+      first.substr(0, begin) + (digits == 0 ? "" : "{:0" + std::to_string(std::min<std::size_t>(digits, 9)) + "}");
+  for (std::size_t k = 0; k < roster.size(); ++k)
+    if (roster.id(k) != options.first + k || roster.name(k) != of_robot(call, roster.id(k)))
+      throw OptionError("--names: \"" + roster.name(k) +
+                        "\" is not next in a row; names here are numbered one after the other, as cf_{01-09}");
+  if (app.count("--cmd-vel") == 0) options.command_topic = "/{}/cmd_vel";
+  if (app.count("--body-frame") == 0) options.body_frame = "{}/base_link";
+  for (std::string* pattern :
+       {&options.pose_topic, &options.odometry_topic, &options.command_topic, &options.body_frame})
+    for (std::size_t at = pattern->find("{}"); at != std::string::npos; at = pattern->find("{}", at + call.size()))
+      pattern->replace(at, 2, call);
+}
+
 void check_topic(const char* option, const std::string& pattern, std::size_t robots) {
   if (pattern.empty()) return;
   if (const std::string fault = topic_fault(of_robot(pattern, 0)); !fault.empty())
     throw OptionError(std::string(option) + " \"" + pattern + "\" " + fault);
-  if (robots > 1 && pattern.find("{}") == std::string::npos)
+  if (robots > 1 && !tells_apart(pattern))
     throw OptionError(std::string(option) + " \"" + pattern + "\" must have {} where the robot's id belongs");
 }
 
 void check(const Options& options) {
-  if (options.robots == 0) throw OptionError("--robots or --id is missing");
+  if (options.robots == 0) throw OptionError("--robots, --names or --id is missing");
   if (options.poses.empty() && options.bases.empty())
     throw OptionError("--poses, --bases or both are missing: there is nothing to do");
   check_topic("--pose", options.pose_topic, options.robots);
@@ -97,7 +126,7 @@ void check(const Options& options) {
   check_topic("--cmd-vel", options.command_topic, options.robots);
   if (options.command_topic.empty() && !options.bases.empty()) throw OptionError("--cmd-vel must not be empty");
   if (options.frame.empty()) throw OptionError("--frame must not be empty");
-  if (options.tf && options.robots > 1 && options.body_frame.find("{}") == std::string::npos)
+  if (options.tf && options.robots > 1 && !tells_apart(options.body_frame))
     throw OptionError("--body-frame \"" + options.body_frame + "\" must have {} where the robot's id belongs");
   if (const std::string fault = node_fault(options.node); !fault.empty())
     throw OptionError("--node \"" + options.node + "\" " + fault);
@@ -108,7 +137,7 @@ void check(const Options& options) {
 std::string usage() {
   CLI::App app(
       "banyan-ros2: robots and tracker of ROS 2 for banyan hub and banyan-robot (docs/ros2.md)\n"
-      "{} in a name stands for a robot's id.",
+      "{} in a name stands for a robot's id, {:02} for the same with two digits.",
       "banyan-ros2");
   Options usual;
   add_options(app, usual);
@@ -120,6 +149,9 @@ Options parse_options(std::span<const std::string> arguments, const Environment&
   Options options = from_environment(environment);
   add_options(app, options);
   udp::read_arguments(app, arguments);
+  if (options.pose_topic.empty() && options.odometry_topic.empty())
+    options.pose_topic = options.names.empty() ? "/robot_{}/pose" : "/{}/pose";
+  if (!options.names.empty()) take_names(app, options);
   if (app.count("--id") > 0) {
     if (options.robots > 0) throw OptionError("--robots and --id exclude each other: give one of the two");
     options.robots = 1;
@@ -128,7 +160,6 @@ Options parse_options(std::span<const std::string> arguments, const Environment&
     options.node = "banyan";
     return options;
   }
-  if (options.pose_topic.empty() && options.odometry_topic.empty()) options.pose_topic = "/robot_{}/pose";
   check(options);
   return options;
 }

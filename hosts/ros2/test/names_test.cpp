@@ -10,6 +10,9 @@ TEST(Ros2Names, OfRobots) {
   EXPECT_EQ(of_robot("/robot_{}/pose", 12), "/robot_12/pose");
   EXPECT_EQ(of_robot("r{}/{}", 3), "r3/3");
   EXPECT_EQ(of_robot("/pose", 3), "/pose");
+  EXPECT_EQ(of_robot("/cf_{:02}/pose_{}", 7), "/cf_07/pose_7");
+  EXPECT_EQ(of_robot("{:02}", 123), "123");
+  for (const char* other : {"{", "{:", "{:0", "{:02", "{:0x}", "{x}", "a{:2}"}) EXPECT_EQ(of_robot(other, 1), other);
 }
 
 // The rules of design.ros2.org, "topic and service names".

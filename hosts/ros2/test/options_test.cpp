@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/hosts/ros2/options.hpp"
+#include "banyan/hosts/ros2/names.hpp"
 
 #include <gtest/gtest.h>
 
@@ -66,8 +67,31 @@ TEST(Ros2Options, OfAMissionNothingElseIsAsked) {
   EXPECT_EQ(usage().find("--swarm"), std::string::npos);
 }
 
+TEST(Ros2Options, RobotsMayHaveNames) {
+  const Options plain = parsed({"--names", "cf_{08-10}", "--poses", "127.0.0.1:4700"});
+  EXPECT_EQ(plain.first, 8U);
+  EXPECT_EQ(plain.robots, 3U);
+  EXPECT_EQ(of_robot(plain.pose_topic, 9), "/cf_09/pose");
+  EXPECT_EQ(of_robot(plain.command_topic, 10), "/cf_10/cmd_vel");
+  EXPECT_EQ(of_robot(plain.body_frame, 8), "cf_08/base_link");
+  const Options given = parsed({"--names", "tb{1-3}", "--poses", "127.0.0.1:4700", "--odometry", "/lab/{}/odom"});
+  EXPECT_EQ(of_robot(given.odometry_topic, 2), "/lab/tb2/odom");
+  EXPECT_EQ(parsed({"--names", "leo", "--poses", "127.0.0.1:4700"}).pose_topic, "/leo/pose");
+  const auto refused = [](const std::string& names, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> all{"--names", names, "--poses", "127.0.0.1:4700"};
+    all.insert(all.end(), more.begin(), more.end());
+    return fault(all);
+  };
+  EXPECT_NE(refused("cf_1,cf_3").find("\"cf_3\" is not next in a row"), std::string::npos) << refused("cf_1,cf_3");
+  EXPECT_NE(refused("cf_1,tb2").find("\"tb2\" is not next in a row"), std::string::npos);
+  EXPECT_NE(refused("leo,mia").find("is not next in a row"), std::string::npos);
+  EXPECT_NE(refused("cf_{1-"), "");
+  EXPECT_NE(refused("cf_1", {"--id", "3"}).find("exclude each other"), std::string::npos);
+  EXPECT_NE(refused("cf_{1-2}", {"--pose", "/pose"}).find("must have {}"), std::string::npos);
+}
+
 TEST(Ros2Options, WhatIsWrongIsSaid) {
-  EXPECT_EQ(fault({}), "--robots or --id is missing");
+  EXPECT_EQ(fault({}), "--robots, --names or --id is missing");
   EXPECT_EQ(fault({"--robots", "9"}), "--poses, --bases or both are missing: there is nothing to do");
   EXPECT_EQ(fault({"--robots", "0"}), "--robots must be a number from 1 to 1000, not \"0\"");
   EXPECT_EQ(fault(with({"--robot", "1"})), "\"--robot\" is unknown; see --help");

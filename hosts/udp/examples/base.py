@@ -72,16 +72,19 @@ class Base:
 
 bases, ready = [Base(number) for number in range(count)], selectors.DefaultSelector()
 for base in bases:
-    ready.register(socket.create_server(("127.0.0.1", first_port + base.number)), selectors.EVENT_READ, base)
+    ready.register(socket.create_server(("127.0.0.1", first_port + base.number)), selectors.EVENT_READ, (base, True))
 then = time.monotonic()
 while True:
     for key, _ in ready.select(max(0.0, then + PERIOD_S - time.monotonic())):
-        if key.fileobj is not key.data.wire:
-            key.data.wire, _ = key.fileobj.accept()
-            ready.register(key.data.wire, selectors.EVENT_READ, key.data)
-        elif not key.data.listen():
-            ready.unregister(key.data.wire)
-            key.data.wire = None
+        base, is_server = key.data
+        if is_server:
+            if base.wire:  # the next robot may come before the end of the last one is noticed
+                ready.unregister(base.wire)
+            base.wire, _ = key.fileobj.accept()
+            ready.register(base.wire, selectors.EVENT_READ, (base, False))
+        elif key.fileobj is base.wire and not base.listen():
+            ready.unregister(base.wire)
+            base.wire = None
     now = time.monotonic()
     if now - then < PERIOD_S:
         continue

@@ -13,16 +13,16 @@ constexpr double insist_s = 1.0;
 
 }  // namespace
 
-Hub::Hub(const HubSettings& options, std::size_t robots, KeyRing keys, HubJournal* journal)
-    : options_(options),
+Hub::Hub(const HubSettings& options, Roster& roster, KeyRing keys, HubJournal* journal)
+    : RemoteLink(roster),
+      options_(options),
       keys_(std::move(keys)),
       journal_(journal),
       socket_(options.listen),
       clock_(options.speed),
-      mission_(journal != nullptr ? journal->mission() : static_cast<std::uint32_t>(new_session())) {
-  const std::uint64_t session = new_session();
-  for (std::size_t i = 0; i < robots; ++i)
-    robots_.emplace_back(SecureChannel(hub_node, static_cast<NodeId>(i), session));
+      mission_(journal != nullptr ? journal->mission() : static_cast<std::uint32_t>(new_session())),
+      session_(new_session()) {
+  for (std::size_t i = 0; i < roster.size(); ++i) robots_.emplace_back(SecureChannel(hub_node, roster.id(i), session_));
 }
 
 // ---- What arrives ----
@@ -37,14 +37,44 @@ void Hub::listen() {
   }
 }
 
+// Somebody who is not in the roster, if there is room. Whoever has a key may knock; few are remembered who have not
+// answered.
+Hub::Robot* Hub::newcomer(NodeId id) {
+  constexpr std::size_t most = 32;
+  if (id >= most_fleet_robots || roster_.size() >= roster_.most()) return nullptr;
+  if (newcomers_.size() >= most && !newcomers_.contains(id))
+    std::erase_if(newcomers_, [](const auto& known) { return !known.second.address; });
+  if (newcomers_.size() >= most && !newcomers_.contains(id)) return nullptr;
+  return &newcomers_.try_emplace(id, SecureChannel(hub_node, id, session_)).first->second;
+}
+
+// It has joined: as one more, or as one that counted as dead.
+std::size_t Hub::admit(NodeId id, std::uint32_t tick) {
+  const auto known = roster_.with_id(id);
+  const std::size_t i = known ? *known : roster_.add(id);
+  if (!known) {
+    const auto newcomer = newcomers_.find(id);
+    robots_.push_back(newcomer == newcomers_.end() ? Robot(SecureChannel(hub_node, id, session_)) : newcomer->second);
+    newcomers_.erase(id);
+    if (tracker_ != nullptr) tracker_->welcome(i);
+  }
+  Robot& robot = robots_[i];
+  robot.dead = robot.left = robot.is_back = robot.told_stop = robot.answered_stop = false;
+  robot.expected = true;
+  robot.heard_tick = tick;
+  return i;
+}
+
 void Hub::refuse(Drop reason, const Address& from, std::optional<NodeId> sender) {
   ++counts_.dropped[static_cast<std::size_t>(reason)];
   refusals_.refuse(reason, from, sender);
 }
 
 void Hub::take(const Envelope& envelope, const Address& from) {
-  if (envelope.sender >= robots_.size()) return refuse(Drop::misaddressed, from, envelope.sender);
-  Robot& robot = robots_[envelope.sender];
+  const auto place = roster_.with_id(envelope.sender);
+  Robot* const sender = place ? &robots_[*place] : newcomer(envelope.sender);
+  if (sender == nullptr) return refuse(Drop::misaddressed, from, envelope.sender);
+  Robot& robot = *sender;
   const SecureChannel::Taken taken = robot.channel.take(envelope, clock_.now_s(), keys_);
   if (!taken.reply.empty()) socket_.send(taken.reply, from);
   if (taken.is_contested) refusals_.rival(envelope.sender, from);
@@ -53,7 +83,8 @@ void Hub::take(const Envelope& envelope, const Address& from) {
   robot.address = from;
   robot.heard_tick = tick_;
   ++counts_.received;
-  if (envelope.kind == EnvelopeKind::stopped) robot.answered_stop = true;
+  if (robot.dead && taken.is_met) robot.is_back = true;
+  if (envelope.kind == EnvelopeKind::stopped) (robot.told_stop ? robot.answered_stop : robot.left) = true;
   if (envelope.kind != EnvelopeKind::status) return;
   const auto status = decode_status(envelope.payload);
   if (!status) return refuse(Drop::malformed, from, envelope.sender);
@@ -67,6 +98,7 @@ void Hub::take(const Envelope& envelope, const Address& from) {
 }
 
 std::optional<Status> Hub::take(std::size_t i) {
+  if (i >= robots_.size()) return std::nullopt;  // a place for somebody who joins
   Robot& robot = robots_[i];
   if (robot.arrived.empty()) return std::nullopt;
   robot.begun = true;
@@ -79,12 +111,14 @@ std::optional<Status> Hub::take(std::size_t i) {
 
 void Hub::send(Robot& robot, EnvelopeKind kind, const Bytes& payload) {
   if (!robot.address) return;
+  if (kind == EnvelopeKind::stop) robot.told_stop = true;
   socket_.send(robot.channel.seal(kind, payload, keys_), *robot.address);
   ++counts_.sent;
 }
 
 void Hub::deliver(std::size_t i, SensorFrame frame, std::span<const Hearing> heard) {
   Robot& robot = robots_[i];
+  robot.expected = false;
   if (muted_) return;
   frame.mission = mission_;
   frame.begun = robot.begun;
@@ -112,7 +146,9 @@ void Hub::send_heard(Robot& robot, const SensorFrame& frame, std::span<const Hea
 }
 
 void Hub::dismiss(std::size_t i) {
+  if (i >= robots_.size()) return;
   Robot& robot = robots_[i];
+  if (robot.expected || robot.is_back) return;  // another program than the one that is gone
   robot.dead = true;
   if (!muted_ && !robot.answered_stop) send(robot, EnvelopeKind::stop, {});
 }
@@ -170,10 +206,16 @@ void Hub::keep_time(std::uint32_t tick, const Stopped& stopped) {
 HubJournalTick Hub::arrivals(std::uint32_t tick) {
   const auto patience = static_cast<std::uint32_t>(std::lround(options_.dead_after_s / options_.tick_s));
   HubJournalTick entries;
+  for (const auto& [id, robot] : newcomers_)
+    if (robot.address && roster_.size() + entries.size() < roster_.most() &&
+        (tracker_ == nullptr || tracker_->has_seen(id)))
+      entries.push_back(HubJournalEntry::of_newcomer(id));
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const Robot& robot = robots_[i];
+    if (robot.is_back) entries.push_back(HubJournalEntry::of_newcomer(roster_.id(i)));
     if (!robot.arrived.empty()) entries.push_back({static_cast<std::uint16_t>(i), robot.arrived});
-    if (!robot.dead && tick - robot.heard_tick > patience) entries.push_back({static_cast<std::uint16_t>(i), {}});
+    if (!robot.dead && (robot.left || tick - robot.heard_tick > patience))
+      entries.push_back({static_cast<std::uint16_t>(i), {}});
   }
   return entries;
 }
@@ -193,33 +235,41 @@ void Hub::add_sight(HubJournalTick& entries) const {
 
 void Hub::play(std::uint32_t tick) {
   for (const HubJournalEntry& entry : journal_->recorded()[tick]) {
+    if (entry.newcomer()) continue;  // in wait_for
     if (entry.robot == HubJournalEntry::tracker && tracker_ != nullptr)
       tracker_->restore({reinterpret_cast<const char*>(entry.status.data()), entry.status.size()});
     if (entry.robot < robots_.size() && !entry.status.empty()) robots_[entry.robot].arrived = entry.status;
   }
 }
 
-std::vector<std::size_t> Hub::wait_for(std::uint32_t tick, const Stopped& stopped) {
+FleetChanges Hub::wait_for(std::uint32_t tick, const Stopped& stopped) {
   tick_ = tick;
   muted_ = is_replaying(tick);
   HubJournalTick entries;
+  FleetChanges changes;
+  const auto admit_all = [&] {
+    for (const HubJournalEntry& entry : entries)
+      if (const auto id = entry.newcomer(); id && (roster_.with_id(*id) || roster_.size() < roster_.most()))
+        changes.joined.push_back(admit(*id, tick));
+  };
   if (muted_) {
     entries = journal_->recorded()[tick];
+    admit_all();
     play(tick);
   } else {
     keep_time(tick, stopped);
     if (tracker_ != nullptr) look_();
     entries = arrivals(tick);
+    admit_all();
     if (journal_ != nullptr && tracker_ != nullptr) add_sight(entries);
     if (journal_ != nullptr) journal_->append(tick, entries);
   }
-  std::vector<std::size_t> dead;
   for (const HubJournalEntry& entry : entries) {
     if (!entry.says_dead() || entry.robot >= robots_.size()) continue;
     robots_[entry.robot].dead = true;
-    dead.push_back(entry.robot);
+    changes.dead.push_back(entry.robot);
   }
-  return dead;
+  return changes;
 }
 
 }  // namespace banyan::udp

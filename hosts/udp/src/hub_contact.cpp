@@ -34,6 +34,11 @@ class HubContact final : public Contact {
   }
   void guide(double /*now_s*/) override {}
   void tell(const Status& status) override { say(EnvelopeKind::status, encode(status)); }
+  // Without an answer: what is lost is noticed by its silence.
+  void leave() override {
+    constexpr int times = 3;
+    for (int k = 0; k < times && !stopped_; ++k) say(EnvelopeKind::stopped, {});
+  }
   void greet(double now_s) override {
     if (now_s < next_hello_s_) return;
     if (greeted_++ == patience_s / hello_every_s)

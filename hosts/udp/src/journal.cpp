@@ -14,7 +14,7 @@
 namespace banyan::udp {
 namespace {
 
-constexpr std::array<std::uint8_t, 8> mark = {'b', 'a', 'n', 'y', 'a', 'n', '2', '\n'};
+constexpr std::array<std::uint8_t, 8> mark = {'b', 'a', 'n', 'y', 'a', 'n', '3', '\n'};
 constexpr std::size_t header = 24;
 
 Bytes bytes_of(const std::string& path) {
@@ -28,6 +28,19 @@ Bytes bytes_of(const std::string& path) {
 }
 
 }  // namespace
+
+HubJournalEntry HubJournalEntry::of_newcomer(std::uint16_t id) {
+  HubJournalEntry entry{joins, {}};
+  DatagramWriter(entry.status).put(id);
+  return entry;
+}
+
+std::optional<std::uint16_t> HubJournalEntry::newcomer() const noexcept {
+  if (robot != joins) return std::nullopt;
+  DatagramReader in(status);
+  const auto id = in.take<std::uint16_t>();
+  return in.ok() ? std::optional(id) : std::nullopt;
+}
 
 HubJournal::HubJournal(const std::string& path, std::uint64_t configuration, std::uint32_t mission,
                        const std::string& start)

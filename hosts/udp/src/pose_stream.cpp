@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/hosts/udp/pose_stream.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -19,6 +20,15 @@ template <class T> bool take_number(std::string_view& line, T& value, char end) 
   return true;
 }
 
+bool take_word(std::string_view& line, std::string& word) {
+  constexpr std::size_t longest = 64;
+  const std::size_t end = line.find_first_of(" \n");
+  if (end == 0 || end > longest || line[end] != ' ') return false;
+  word = line.substr(0, end);
+  line.remove_prefix(end + 1);
+  return std::none_of(word.begin(), word.end(), [](char c) { return c < '!' || c > '~'; });
+}
+
 std::string in_words(double value) {
   std::array<char, 32> text{};
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
@@ -32,15 +42,15 @@ bool is_sound(const TrackedPose& pose) noexcept {  // false for NaN, too
 }
 
 std::string pose_line(const PoseLine& line) {
-  return std::to_string(line.robot) + " " + in_words(line.pose.position.x) + " " + in_words(line.pose.position.y) +
-         " " + in_words(line.pose.heading_rad) + "\n";
+  return line.robot + " " + in_words(line.pose.position.x) + " " + in_words(line.pose.position.y) + " " +
+         in_words(line.pose.heading_rad) + "\n";
 }
 
 std::optional<std::vector<PoseLine>> parse_poses(std::string_view datagram) {
   std::vector<PoseLine> lines;
   while (!datagram.empty()) {
     PoseLine line;
-    const bool read = take_number(datagram, line.robot, ' ') && take_number(datagram, line.pose.position.x, ' ') &&
+    const bool read = take_word(datagram, line.robot) && take_number(datagram, line.pose.position.x, ' ') &&
                       take_number(datagram, line.pose.position.y, ' ') &&
                       take_number(datagram, line.pose.heading_rad, '\n');
     if (!read || !is_sound(line.pose)) return std::nullopt;
@@ -64,14 +74,31 @@ void PoseStream::listen() {
 }
 
 void PoseStream::take(const std::vector<PoseLine>& lines) {
-  for (const PoseLine& line : lines)
-    if (line.robot < poses_.size()) poses_[line.robot] = line.pose;  // others may be tracked, too
+  for (const PoseLine& line : lines) {
+    if (const auto robot = roster_.find(line.robot)) poses_[*robot] = line.pose;
+    else take_other(line);
+  }
+}
+
+// Others may be tracked, too: people, or robots that have not joined yet.
+void PoseStream::take_other(const PoseLine& line) {
+  constexpr std::size_t most = 32;
+  if (const auto id = roster_.id_of(line.robot); id && (others_.contains(*id) || others_.size() < most))
+    others_[*id] = line.pose;
+  if (tell_unknown_ && told_.size() < most && told_.insert(line.robot).second) tell_unknown_(line.robot);
+}
+
+void PoseStream::welcome(std::size_t robot) {
+  const auto seen = others_.find(roster_.id(robot));
+  if (seen == others_.end()) return;
+  poses_[robot] = seen->second;
+  others_.erase(seen);
 }
 
 std::string PoseStream::lines() const {
   std::string text;
   for (std::size_t i = 0; i < poses_.size(); ++i)
-    if (poses_[i]) text += pose_line({i, *poses_[i]});
+    if (poses_[i]) text += pose_line({roster_.name(i), *poses_[i]});
   return text;
 }
 
@@ -81,7 +108,7 @@ void PoseStream::restore(std::string_view text) {
 
 std::vector<std::size_t> PoseStream::missing() const {
   std::vector<std::size_t> robots;
-  for (std::size_t i = 0; i < poses_.size(); ++i)
+  for (std::size_t i = 0; i < roster_.size(); ++i)
     if (!poses_[i]) robots.push_back(i);
   return robots;
 }

@@ -2,11 +2,8 @@
 #include "banyan/hosts/udp/refusals.hpp"
 
 namespace banyan::udp {
-namespace {
 
-std::string name_of(NodeId node) { return node == hub_node ? "the hub" : "robot " + std::to_string(node); }
-
-}  // namespace
+std::string Refusals::robot(NodeId id) const { return "robot " + (name_of_ ? name_of_(id) : std::to_string(id)); }
 
 void Refusals::once(const std::string& text) {
   constexpr std::size_t most = 32;
@@ -16,7 +13,8 @@ void Refusals::once(const std::string& text) {
 
 void Refusals::refuse(Drop reason, const Address& from, std::optional<NodeId> sender) {
   const std::string where = to_string(from);
-  const std::string who = "refused " + (sender ? name_of(*sender) + " at " + where : where) + ": ";
+  const std::string who =
+      "refused " + (sender ? (*sender == hub_node ? "the hub" : robot(*sender)) + " at " + where : where) + ": ";
   switch (reason) {
     case Drop::foreign:
       return once(who +
@@ -35,11 +33,10 @@ void Refusals::refuse(Drop reason, const Address& from, std::optional<NodeId> se
   }
 }
 
-void Refusals::rival(NodeId robot, const Address& believed) {
-  const auto other = rivals_.find(robot);
-  once("refused a second robot " + std::to_string(robot) +
-       (other == rivals_.end() ? "" : " at " + to_string(other->second)) + ": the one at " + to_string(believed) +
-       " is running; one of them needs another --id");
+void Refusals::rival(NodeId id, const Address& believed) {
+  const auto other = rivals_.find(id);
+  once("refused a second " + robot(id) + (other == rivals_.end() ? "" : " at " + to_string(other->second)) +
+       ": the one at " + to_string(believed) + " is running; one of them needs another --id");
 }
 
 }  // namespace banyan::udp

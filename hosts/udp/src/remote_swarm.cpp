@@ -31,10 +31,36 @@ RemoteSwarm::RemoteSwarm(const RemoteSwarm& other)
 
 std::unique_ptr<Swarm> RemoteSwarm::clone() const { return std::unique_ptr<Swarm>(new RemoteSwarm(*this)); }
 
+namespace {
+
+// With indices in place of ids; nobody for whom the roster does not have.
+Report with_indices(Report report, const Roster& roster) {
+  const auto index = [&](RobotId& id) {
+    const auto robot = id == nobody ? std::nullopt : roster.with_id(id);
+    id = robot ? static_cast<RobotId>(*robot) : nobody;
+  };
+  for (RobotId* id : {&report.parent, &report.old_parent, &report.serves, &report.root, &report.grant, &report.request,
+                      &report.relieves})
+    index(*id);
+  for (RobotId& id : report.kept) index(id);
+  std::fill(std::remove(report.kept.begin(), report.kept.end(), nobody), report.kept.end(), nobody);
+  return report;
+}
+
+}  // namespace
+
+void RemoteSwarm::restart(std::size_t i) {
+  SwarmElsewhere::restart(i);
+  Robot fresh;
+  fresh.member.id = robots_[i].member.id;
+  fresh.recent.resize(history_);
+  robots_[i] = std::move(fresh);
+}
+
 // A message that the algorithm does not know makes the whole status worthless.
 void RemoteSwarm::hear(std::size_t i, const Status& status) {
   if (!take(i, status.message)) return;
-  take(i, status.report);
+  take(i, with_indices(status.report, link_->roster()));
   Robot& robot = robots_[i];
   robot.silent_ticks = 0;
   robot.velocity = status.velocity;
@@ -69,7 +95,7 @@ SensorFrame RemoteSwarm::frame_of(Robot& robot, const Senses& senses) const {
   frame.line_of_sight = line_of_sight_;
   frame.target = senses.orders.target.value_or(Vec2{});
   frame.odometry = robot.odometry;
-  frame.given_up = robot.given_up.empty() ? nobody : robot.given_up.front();
+  frame.given_up = robot.given_up.empty() ? nobody : link_->roster().id(robot.given_up.front());
   frame.given_up_serial = static_cast<std::uint8_t>(robot.given_up_serial + (robot.given_up.empty() ? 0 : 1));
   const std::size_t seen = std::min(senses.obstacles.size(), most_seen);
   frame.obstacles.assign(senses.obstacles.begin(), senses.obstacles.begin() + static_cast<std::ptrdiff_t>(seen));
@@ -92,7 +118,8 @@ void RemoteSwarm::step(std::size_t first, std::span<const Sensed> sensed, std::s
     for (const Packet& packet : sensed[k].packets) {
       // One tick old is what arrived in this one.
       const Bytes& message = robots_[packet.sender].recent[slot(packet.age_ticks - 1)];
-      if (!message.empty()) heard_.push_back({robots_[packet.sender].member.id, packet.position, message});
+      if (link_ != nullptr && !message.empty())
+        heard_.push_back({link_->roster().id(packet.sender), packet.position, message});
     }
     if (link_ != nullptr) link_->deliver(first + k, frame_of(robot, senses), heard_);
     commands[k] = robot.silent_ticks > silence_ ? Velocity{} : robot.velocity;

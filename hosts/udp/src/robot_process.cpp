@@ -75,6 +75,7 @@ class Process {
       hear();
       if (clock_.now_s() >= next_step_s_) act(clock_.now_s());
     }
+    if (caught != 0 || driver_->lost()) contact_->leave();
     return caught != 0 ? 128 + caught : driver_->lost() ? 1 : 0;
   }
 

@@ -86,7 +86,8 @@ class HubAndRobots : public ::testing::Test {
     const auto status = hub_.take(i);
     return status ? std::optional(status->velocity.forward_m_s) : std::nullopt;
   }
-  Hub hub_{options(), 2, fleet_keys(), nullptr};
+  Roster roster_{2};
+  Hub hub_{options(), roster_, fleet_keys(), nullptr};
   FakeRobot a_{0, hub_}, b_{1, hub_};
 };
 
@@ -191,7 +192,8 @@ TEST_F(HubAndRobots, WhatIsHeardTravelsInAsManyDatagramsAsWanted) {
   EXPECT_EQ(a_.hear().size(), 21U);
   HubSettings bundled = options();
   bundled.bundle = 64;
-  Hub hub(bundled, 1, fleet_keys(), nullptr);
+  Roster one(1);
+  Hub hub(bundled, one, fleet_keys(), nullptr);
   FakeRobot robot(0, hub);
   join(hub, {&robot});
   hub.deliver(0, {}, heard);
@@ -208,7 +210,7 @@ TEST_F(HubAndRobots, ARobotThatIsSilentCountsAsDeadOnce) {
   std::vector<std::size_t> dead;
   for (std::uint32_t tick = 1; tick < 30; ++tick) {
     a_.tell(0.1F);
-    for (const std::size_t robot : hub_.wait_for(tick, never)) {
+    for (const std::size_t robot : hub_.wait_for(tick, never).dead) {
       dead.push_back(robot);
       EXPECT_EQ(tick, 11U);  // dead_after_s
     }
@@ -231,7 +233,8 @@ TEST_F(HubAndRobots, AHubPlaysItsTapeAndGoesOn) {
   const std::string path = ::testing::TempDir() + "banyan-hub-journal-" + std::to_string(::getpid());
   {
     HubJournal journal(path, 1, 2);
-    Hub hub(options(), 1, fleet_keys(), &journal);
+    Roster one(1);
+    Hub hub(options(), one, fleet_keys(), &journal);
     FakeRobot robot(0, hub);
     join(hub, {&robot});
     for (std::uint32_t tick = 0; tick < 5; ++tick) {
@@ -242,7 +245,8 @@ TEST_F(HubAndRobots, AHubPlaysItsTapeAndGoesOn) {
     }
   }
   HubJournal journal(path, 1);
-  Hub hub(options(), 1, fleet_keys(), &journal);
+  Roster one(1);
+  Hub hub(options(), one, fleet_keys(), &journal);
   FakeRobot robot(0, hub);
   for (std::uint32_t tick = 0; tick < 5; ++tick) {
     EXPECT_TRUE(hub.is_replaying(tick));
@@ -263,6 +267,163 @@ TEST_F(HubAndRobots, AHubPlaysItsTapeAndGoesOn) {
   const auto heard = robot.hear();
   ASSERT_EQ(heard.size(), 1U);
   EXPECT_TRUE(decode_frame(heard[0].second)->begun);
+  std::filesystem::remove(path);
+}
+
+// ---- Who comes and goes ----
+
+using Indices = std::vector<std::size_t>;
+
+// A hub of two robots with ids 4 and 9 that has room for one more.
+class HubWithRoom : public ::testing::Test {
+ protected:
+  void begin() {
+    a_.greet();
+    b_.greet();
+    EXPECT_EQ(hub_.gather(0.05, never), (Indices{0, 1}));
+    a_.answer();
+    b_.answer();
+    ASSERT_TRUE(hub_.gather(5.0, never).empty());
+    ASSERT_TRUE(tick().empty());
+  }
+  // Those who take part say something in every tick, so that nobody counts as dead.
+  FleetChanges tick() {
+    if (a_talks_) a_.tell(0.1F);
+    b_.tell(0.1F);
+    return hub_.wait_for(tick_++, never);
+  }
+  // The ticks that a greeting takes.
+  FleetChanges meet(FakeRobot& robot) {
+    robot.greet();
+    EXPECT_TRUE(tick().empty());
+    robot.answer();
+    return tick();
+  }
+  static HubSettings settings() {
+    return {.listen = anywhere, .tick_s = 0.1, .speed = 20.0, .dead_after_s = 1.0, .bundle = 1};
+  }
+  std::vector<EnvelopeKind> heard_by(FakeRobot& robot) {
+    std::vector<EnvelopeKind> kinds;
+    for (const auto& [kind, payload] : robot.hear()) kinds.push_back(kind);
+    return kinds;
+  }
+  Roster roster_{"cf_4,cf_9", 1};
+  Hub hub_{settings(), roster_, fleet_keys(), nullptr};
+  FakeRobot a_{4, hub_}, b_{9, hub_}, late_{17, hub_};
+  std::uint32_t tick_ = 0;
+  bool a_talks_ = true;
+};
+
+TEST_F(HubWithRoom, WhoeverHasAKeyAndAnUnusedIdJoins) {
+  begin();
+  EXPECT_EQ(meet(late_).joined, (Indices{2}));
+  EXPECT_EQ(roster_.id(2), 17);
+  EXPECT_EQ(roster_.name(2), "cf_17");
+  EXPECT_TRUE(tick().empty());  // once
+  hub_.dismiss(2);              // its world does not have it yet
+  EXPECT_TRUE(heard_by(late_).empty());
+  hub_.deliver(2, {}, {});
+  EXPECT_EQ(heard_by(late_), (std::vector<EnvelopeKind>{EnvelopeKind::frame}));
+  late_.tell(0.4F);
+  static_cast<void>(tick());
+  EXPECT_EQ(hub_.take(2)->velocity.forward_m_s, 0.4F);
+}
+
+TEST_F(HubWithRoom, NobodyJoinsByAHelloAloneOrBeyondTheRoom) {
+  begin();
+  std::vector<std::string> told;
+  hub_.tell_refusals([&](const std::string& text) { told.push_back(text); });
+  for (NodeId id = 100; id < 300; ++id)
+    late_.socket.send(SecureChannel(id, hub_node, 5).ask(0.0, fleet_keys()), hub_.local());
+  EXPECT_TRUE(tick().empty());
+  static_cast<void>(late_.hear());
+  EXPECT_EQ(meet(late_).joined, (Indices{2}));
+  EXPECT_TRUE(told.empty());
+  FakeRobot other(18, hub_);
+  EXPECT_TRUE(meet(other).empty());
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_TRUE(told[0].starts_with("refused robot cf_18 at 127.0.0.1:")) << told[0];
+}
+
+TEST_F(HubWithRoom, WithATrackerNobodyJoinsUnseen) {
+  PoseStream tracker(anywhere, roster_);
+  hub_.watch(tracker, [&] { tracker.listen(); });
+  const Socket camera(anywhere);
+  const auto see = [&](const std::string& text) {
+    camera.send({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, tracker.local());
+  };
+  begin();
+  EXPECT_TRUE(meet(late_).empty());
+  see("cf_4 0 0 0\nsomebody 1 1 0\ncf_17 1 2 0.5\n");
+  EXPECT_EQ(tick().joined, (Indices{2}));
+  EXPECT_EQ(tracker.poses()[2], (TrackedPose{{1.0, 2.0}, 0.5}));
+  EXPECT_EQ(tracker.lines(), "cf_4 0 0 0\ncf_17 1 2 0.5\n");
+}
+
+TEST_F(HubWithRoom, WhoSaysThatItLeavesIsGoneAtOnce) {
+  begin();
+  a_.say(EnvelopeKind::stopped);
+  a_talks_ = false;
+  EXPECT_EQ(tick().dead, (Indices{0}));
+  EXPECT_TRUE(hub_.has_left(0));
+  EXPECT_TRUE(tick().empty());
+}
+
+TEST_F(HubWithRoom, WhoCountsAsDeadMayJoinAgainAsAnotherProgramOnly) {
+  begin();
+  a_talks_ = false;
+  FleetChanges changes;
+  while (changes.empty() && tick_ < 100) changes = tick();
+  EXPECT_EQ(changes.dead, (Indices{0}));
+  a_.tell(0.1F);  // it was only cut off
+  EXPECT_TRUE(tick().empty());
+  static_cast<void>(a_.hear());
+  hub_.dismiss(0);
+  EXPECT_EQ(heard_by(a_), (std::vector<EnvelopeKind>{EnvelopeKind::stop}));
+  for (int k = 0; k < 25; ++k) static_cast<void>(tick());  // its id is free after a second of silence
+  FakeRobot again(4, hub_, 77);
+  again.greet();
+  static_cast<void>(tick());
+  again.answer();
+  again.greet();
+  FleetChanges back = tick();
+  again.answer();
+  for (int k = 0; k < 5 && back.empty(); ++k) back = tick();
+  EXPECT_EQ(back.joined, (Indices{0}));
+  static_cast<void>(again.hear());
+  hub_.dismiss(0);
+  EXPECT_TRUE(heard_by(again).empty());
+  hub_.deliver(0, {}, {});
+  EXPECT_EQ(heard_by(again), (std::vector<EnvelopeKind>{EnvelopeKind::frame}));
+}
+
+TEST_F(HubAndRobots, ItsTapeHasWhoJoined) {
+  const std::string path = ::testing::TempDir() + "banyan-hub-joins-" + std::to_string(::getpid());
+  std::vector<Indices> live, played;
+  {
+    HubJournal journal(path, 1, 2);
+    Roster roster(1, 1);
+    Hub hub(options(), roster, fleet_keys(), &journal);
+    FakeRobot first(0, hub), late(7, hub);
+    join(hub, {&first});
+    for (std::uint32_t tick = 0; tick < 6; ++tick) {
+      if (tick == 2) late.greet();
+      if (tick == 3) late.answer();
+      live.push_back(hub.wait_for(tick, never).joined);
+      if (roster.size() > 1) late.tell(static_cast<float>(tick));
+    }
+  }
+  HubJournal journal(path, 1);
+  Roster roster(1, 1);
+  Hub hub(options(), roster, fleet_keys(), &journal);
+  for (std::uint32_t tick = 0; tick < 6; ++tick) {
+    played.push_back(hub.wait_for(tick, never).joined);
+    const auto status = hub.take(1);
+    EXPECT_EQ(status.has_value(), tick > 3) << tick;
+  }
+  EXPECT_EQ(played, live);
+  EXPECT_EQ(live[3], (Indices{1}));
+  EXPECT_EQ(roster.id(1), 7);
   std::filesystem::remove(path);
 }
 

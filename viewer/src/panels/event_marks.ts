@@ -12,6 +12,7 @@ const marks: Record<string, Mark> = {
   death: { color: '--bad', height: 1, sign: '✕' },
   split: { color: '--bad', height: 1, sign: '⚡' },
   edges_broken: { color: '--bad', height: 0.7, sign: '⌁' },
+  join: { color: '--good', height: 1, sign: '⊞' },
   joined: { color: '--good', height: 0.7, sign: '◯' },
   edges_whole: { color: '--good', height: 0.4, sign: '○' },
   root: { color: '--root', height: 1, sign: '◆' },

@@ -4,7 +4,7 @@ import type { RunEvent } from '../frame';
 
 /** What [ and ] stop at. */
 export const notableKinds: ReadonlySet<string> = new Set([
-  'inserted', 'recruited', 'root', 'edges_broken', 'death', 'split', 'complete',
+  'inserted', 'recruited', 'root', 'edges_broken', 'death', 'join', 'split', 'complete',
   'set_loss', 'blackout', 'line_of_sight', 'target_added', 'target_removed', 'obstacle_added', 'obstacle_removed',
 ]);
 

@@ -41,7 +41,9 @@ class Effort {
   static Choice of(const Report& report) noexcept { return {report.parent, report.serves, report.role}; }
 
   std::vector<world::Vec2> position_;  // by robot, at the last tick
-  std::vector<Choice> choice_;         // likewise
+  std::vector<Choice> choice_;         // likewise, and so is
+  std::vector<std::uint8_t> alive_;
+  std::size_t at_start_;  // robots
   double driven_m_ = 0.0;
   std::uint64_t decisions_ = 0;
 };

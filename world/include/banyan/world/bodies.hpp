@@ -35,6 +35,8 @@ class Bodies {
                     std::span<Odometry> odometry) = 0;
   // From now on robot i has no body and touches no other. Its command stays zero.
   virtual void remove(std::size_t) {}  // where contacts are only those of `near` there is nothing to do
+  // From now on robot i has a body, which stands where its pose is: it has just been put there.
+  virtual void arrive(std::size_t) {}  // where poses are all there is there is nothing to do
   // From the next step on these are the obstacles. A robot that is then inside one is pushed out of it.
   virtual void set_obstacles(std::span<const Obstacle> obstacles) = 0;
   // Adds what the model remembers beside the poses (velocities) to a running hash.

@@ -30,6 +30,8 @@ struct Fault {
 struct Present {
   std::size_t targets = 0;          // that have been there, given up or not
   std::vector<Obstacle> obstacles;  // where they are
+  std::size_t robots = 0;           // that have been there
+  std::size_t places = 0;           // for robots
 };
 // The part of faults() that is about events and how many robots they need, for a scenario whose other
 // parts are without faults. With `now` its last event is also checked against that.

@@ -50,6 +50,7 @@ struct SwarmModel {
   double redundancy = 2.0;            // k
   Start start;
   std::optional<std::size_t> root;  // index; none: a random robot that is not a worker
+  std::size_t room = 0;             // places for robots that join by an intervention: a program's, no key of files
 };
 
 enum class BodyModel : std::uint8_t { disks, box2d, linear };
@@ -212,8 +213,13 @@ struct RemoveObstacle {  // those after it move up
   static constexpr std::string_view kind = "remove_obstacle";
   std::size_t obstacle = 0;
 };
+struct Join {  // as a spare that knows nothing: the next robot, or one that has died
+  static constexpr std::string_view kind = "join";
+  std::size_t robot = 0;
+  Vec2 position{};
+};
 using Action = std::variant<Die, Freeze, SetLoss, MoveTarget, AddTarget, Kill, Blackout, RemoveTarget, SetLineOfSight,
-                            MoveObstacle, AddObstacle, RemoveObstacle>;
+                            MoveObstacle, AddObstacle, RemoveObstacle, Join>;
 
 struct Event {
   // What time_s counts from: the start, the moment at which the workers' remaining distances have
@@ -265,9 +271,11 @@ struct Scenario {
 // The edge by which swarm.redundancy counts: 0.7704205 C, which is delta of inwards (protocol 2, row 10).
 [[nodiscard]] double redundancy_edge_m(const Scenario& scenario) noexcept;
 
-// Number of robots: swarm.robots, or the paper's redundancy factor (protocol 2, row 10) of the mission's targets.
-// At least one more than targets and charging places.
+// Number of robots at the start: swarm.robots, or the paper's redundancy factor (protocol 2, row 10) of the mission's
+// targets. At least one more than targets and charging places.
 [[nodiscard]] std::size_t robot_count(const Scenario& scenario);
+// With those that join later, and swarm.room.
+[[nodiscard]] std::size_t place_count(const Scenario& scenario);
 
 // What a scenario does not say of lengths follows from the radio's range C and the body. Most are shares of this: C, or
 // 28.4 radii of the body where that is more; it is C = 2 m with a Khepera IV.

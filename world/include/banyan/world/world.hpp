@@ -63,12 +63,14 @@ class World {
   [[nodiscard]] const Swarm& swarm() const noexcept;  // to look into the robots; the world itself uses reports
   [[nodiscard]] std::uint64_t tick() const noexcept;  // 0 before the first step
   [[nodiscard]] double time_s() const noexcept;       // tick x tick_s
-  [[nodiscard]] std::size_t size() const noexcept;    // robots, dead ones included
+  [[nodiscard]] std::size_t size() const noexcept;    // robots, dead ones included, and those that have not joined yet
+  // Robots from this index on have not joined yet: they are not alive, and stand far outside.
+  [[nodiscard]] std::size_t arrived() const noexcept;
   [[nodiscard]] std::span<const Vec2> positions() const noexcept;
   [[nodiscard]] std::span<const Vec2> headings() const noexcept;  // unit vectors
   // The report of each robot, as of its last step; of a dead one, as of its last step before it died.
   [[nodiscard]] std::span<const Report> reports() const noexcept;
-  [[nodiscard]] std::span<const std::uint8_t> alive() const noexcept;  // 0: dead (its body stays)
+  [[nodiscard]] std::span<const std::uint8_t> alive() const noexcept;  // 0: dead (its body stays), or not yet there
   [[nodiscard]] std::span<const Target> targets() const noexcept;
   // As they are now; scenario() has them as they were at the start.
   [[nodiscard]] std::span<const Obstacle> obstacles() const noexcept;

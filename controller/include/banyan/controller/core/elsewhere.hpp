@@ -27,6 +27,10 @@ class SwarmElsewhere : public Swarm {
     return robots_[i].message.size();
   }
   [[nodiscard]] std::size_t message_bytes() const noexcept override { return local_->message_bytes(); }
+  void restart(std::size_t i) override {
+    local_->restart(i);
+    begin(i);
+  }
   // Nobody hears other swarms through it.
   std::optional<std::uint32_t> receive(std::span<const std::uint8_t> /*bytes*/) override { return std::nullopt; }
   [[nodiscard]] Report report(std::size_t i) const noexcept override { return robots_[i].report; }
@@ -44,13 +48,7 @@ class SwarmElsewhere : public Swarm {
  protected:
   // `local`: a swarm of the algorithm, which knows its messages and how robots begin.
   explicit SwarmElsewhere(std::unique_ptr<Swarm> local) : local_(std::move(local)), robots_(local_->size()) {
-    for (std::size_t i = 0; i < robots_.size(); ++i) {
-      robots_[i].report = local_->report(i);
-      robots_[i].message.resize(local_->message_bytes());
-      robots_[i].message.resize(local_->send(i, robots_[i].message));
-      robots_[i].numbers.resize(local_->message_fields().size());
-      local_->message_numbers(i, robots_[i].numbers);
-    }
+    for (std::size_t i = 0; i < robots_.size(); ++i) begin(i);
   }
   SwarmElsewhere(const SwarmElsewhere& other) : local_(other.local_->clone()), robots_(other.robots_) {}
 
@@ -72,6 +70,13 @@ class SwarmElsewhere : public Swarm {
     std::vector<std::uint8_t> message;
     std::vector<double> numbers;  // of that
   };
+  void begin(std::size_t i) {
+    robots_[i].report = local_->report(i);
+    robots_[i].message.resize(local_->message_bytes());
+    robots_[i].message.resize(local_->send(i, robots_[i].message));
+    robots_[i].numbers.resize(local_->message_fields().size());
+    local_->message_numbers(i, robots_[i].numbers);
+  }
   std::unique_ptr<Swarm> local_;
   std::vector<Robot> robots_;
 };

@@ -57,6 +57,8 @@ class Swarm {
   // ranges of a tick and before advance(), or between ticks (World::decide). May change the command and the report of
   // every robot that stepped last; the spans are of all robots. May throw; the world is then worthless.
   virtual void decide(std::span<Velocity> /*commands*/, std::span<Report> /*reports*/) {}
+  // Between two ticks: robot i begins anew, as a spare that knows nothing. Nothing to do where nothing is kept of it.
+  virtual void restart(std::size_t /*i*/) {}
 
   // What robot i broadcast last, as bytes: at most largest_wire (wire.hpp). Returns how many.
   virtual std::size_t send(std::size_t i, std::span<std::uint8_t> bytes) const noexcept = 0;

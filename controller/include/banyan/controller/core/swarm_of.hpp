@@ -137,6 +137,13 @@ template <class A> class SwarmOf final : public Swarm {
     foreign_.clear();
   }
 
+  void restart(std::size_t i) override {
+    Message first;
+    first.id = slots_[0][i].id;
+    for (auto& slot : slots_) slot[i] = first;
+    states_[i] = A::initial(first.id, false, false);
+  }
+
   std::size_t send(std::size_t i, std::span<std::uint8_t> bytes) const noexcept override {
     return encode_fields(slots_[slot_of(1)][i], bytes);
   }

@@ -8,7 +8,7 @@
 
 namespace banyan::ros2 {
 
-// With each {} replaced by the id.
+// With each {} replaced by the id, and {:02} by the id with at least two digits.
 [[nodiscard]] std::string of_robot(std::string_view pattern, std::size_t id);
 // What is wrong with an absolute topic's name; "" if it is one.
 [[nodiscard]] std::string topic_fault(std::string_view name);

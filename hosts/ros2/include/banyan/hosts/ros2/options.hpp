@@ -17,6 +17,7 @@ namespace banyan::ros2 {
 struct Options {
   std::size_t first = 0;   // the id of the first robot
   std::size_t robots = 0;  // as many, with ids one after the other
+  std::string names;       // as given; "": robots are called by their ids. Names of topics have them already
   std::string poses;       // ADDRESS:PORT of the hub's --poses; "": there is no hub to tell
   std::string bases;  // ADDRESS:PORT of the first robot's base, the others' follow; "": robots are driven by others
   std::string pose_topic;      // geometry_msgs/PoseStamped; "": none

@@ -25,6 +25,8 @@ class Contact {
   virtual void tell(const Status& status) = 0;
   // Instead of a step, while nothing guides the robot.
   virtual void greet(double now_s) = 0;
+  // Its program ends unasked: it will not be heard again.
+  virtual void leave() {}
   // It was told to stop, and not to go on.
   [[nodiscard]] bool is_stopped() const noexcept { return stopped_; }
 

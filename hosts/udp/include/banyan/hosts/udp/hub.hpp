@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,8 +41,9 @@ struct HubCounts {
 
 class Hub final : public RemoteLink {
  public:
-  // `journal`: none, or one to write and, if it has recorded ticks, to play first; it must outlive the hub.
-  Hub(const HubSettings& options, std::size_t robots, KeyRing keys, HubJournal* journal);
+  // `roster` must outlive it; whoever joins is added. `journal`: none, or one to write and, if it has recorded ticks,
+  // to play first; it must outlive the hub.
+  Hub(const HubSettings& options, Roster& roster, KeyRing keys, HubJournal* journal);
 
   using Stopped = std::function<bool()>;
   // Waits until every robot has said something, at most so long. Those that have not.
@@ -51,16 +53,19 @@ class Hub final : public RemoteLink {
     tracker_ = &tracker;
     look_ = std::move(look);
   }
-  // Waits for the moment of that tick and takes what has come by then. The robots that count as dead from now on.
-  // Ends early if it is stopped.
-  [[nodiscard]] std::vector<std::size_t> wait_for(std::uint32_t tick, const Stopped& stopped);
+  // Waits for the moment of that tick and takes what has come by then. Ends early if it is stopped.
+  [[nodiscard]] FleetChanges wait_for(std::uint32_t tick, const Stopped& stopped);
   // Tells all robots to stand still and end, again and again, until all have answered or a second has passed. How many
   // have not answered.
   std::size_t stop_all();
 
   // From now on.
   void use(const KeyRing& keys) { keys_ = keys; }
-  void tell_refusals(Refusals::Tell tell) { refusals_.tell(std::move(tell)); }
+  void tell_refusals(Refusals::Tell tell) {
+    refusals_.tell(std::move(tell), [this](NodeId id) { return roster_.name_of(id); });
+  }
+  // Whether that robot has said that it leaves.
+  [[nodiscard]] bool has_left(std::size_t i) const noexcept { return robots_[i].left; }
 
   [[nodiscard]] const HubCounts& counts() const noexcept { return counts_; }
   [[nodiscard]] bool is_replaying(std::uint32_t tick) const noexcept {
@@ -82,13 +87,18 @@ class Hub final : public RemoteLink {
     Bytes arrived;                   // that status; empty: taken
     bool begun = false;              // it has taken part
     bool dead = false;
-    bool answered_stop = false;
+    bool left = false;      // it has said so
+    bool is_back = false;   // dead, and another program of this id has come
+    bool expected = false;  // it has joined, and its world does not have it yet
+    bool told_stop = false, answered_stop = false;
     std::uint32_t heard_tick = 0;  // when it was last heard
     std::uint32_t dropped = 0;     // by itself, as it says
   };
 
   void listen();
   void take(const Envelope& envelope, const Address& from);
+  [[nodiscard]] Robot* newcomer(NodeId id);
+  std::size_t admit(NodeId id, std::uint32_t tick);
   void refuse(Drop reason, const Address& from, std::optional<NodeId> sender);
   void send(Robot& robot, EnvelopeKind kind, const Bytes& payload);
   void send_heard(Robot& robot, const SensorFrame& frame, std::span<const Hearing> heard);
@@ -106,8 +116,10 @@ class Hub final : public RemoteLink {
   Socket socket_;
   Clock clock_;
   std::uint32_t mission_;
+  std::uint64_t session_;
   std::vector<Robot> robots_;
-  std::optional<double> begin_s_;  // when tick 0 began, or would have; none: not yet
+  std::map<NodeId, Robot> newcomers_;  // who are not in the roster yet
+  std::optional<double> begin_s_;      // when tick 0 began, or would have; none: not yet
   std::uint32_t tick_ = 0;
   bool muted_ = false;  // a journal is played
   HubCounts counts_;

@@ -3,15 +3,17 @@
 // so a hub that was killed plays the journal and goes on where it was: with the same poses, assignment, recording and
 // account.
 //
-//   8 bytes "banyan2\n"; 8 bytes digest of the configuration; 4 bytes number of the mission; 4 bytes length of where
+//   8 bytes "banyan3\n"; 8 bytes digest of the configuration; 4 bytes number of the mission; 4 bytes length of where
 //   the tracker saw robots in the beginning (lines as in pose_stream.hpp; 0: there is no tracker), and those; then of
 //   each tick 4 bytes tick, 2 bytes count, and as often: 2 bytes robot, 2 bytes length, a status (messages.hpp); of
-//   length 0: the robot counts as dead from then on; of robot 65535: lines of the tracker
+//   length 0: the robot counts as dead from then on; of robot 65535: lines of the tracker; of robot 65534: 2 bytes id,
+//   whose robot joins, a new one or one that counted as dead
 //
 // A tick that was cut off by the end of the hub is not there.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -26,10 +28,12 @@ class HubJournalError : public std::runtime_error {
 };
 
 struct HubJournalEntry {
-  static constexpr std::uint16_t tracker = 65535;
+  static constexpr std::uint16_t tracker = 65535, joins = 65534;
   std::uint16_t robot = 0;
   Bytes status;  // empty: dead
-  [[nodiscard]] bool says_dead() const noexcept { return robot != tracker && status.empty(); }
+  [[nodiscard]] static HubJournalEntry of_newcomer(std::uint16_t id);
+  [[nodiscard]] std::optional<std::uint16_t> newcomer() const noexcept;  // its id
+  [[nodiscard]] bool says_dead() const noexcept { return robot != tracker && robot != joins && status.empty(); }
   friend bool operator==(const HubJournalEntry&, const HubJournalEntry&) = default;
 };
 using HubJournalTick = std::vector<HubJournalEntry>;

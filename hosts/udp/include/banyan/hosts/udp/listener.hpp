@@ -23,16 +23,20 @@ struct ListenerOptions {
 
 class Listener final : public RemoteLink {
  public:
-  Listener(const ListenerOptions& options, std::size_t robots, KeyRing keys);
+  // `roster` must outlive it; whoever joins is added.
+  Listener(const ListenerOptions& options, Roster& roster, KeyRing keys);
 
   using Stopped = std::function<bool()>;
-  // Until every robot has told something and has a place on the chart, and so many say that they have a target; at
-  // most so long. The robots without a place.
+  // Until every robot of the roster at first has told something and has a place on the chart, and so many say that they
+  // have a target; at most so long. The robots without a place.
   [[nodiscard]] std::vector<std::size_t> gather(double seconds, std::size_t targets, const Stopped& stopped);
-  // Waits for the moment of that tick; the robots that count as dead from now on. Ends early if it is stopped.
-  [[nodiscard]] std::vector<std::size_t> wait_for(std::uint32_t tick, const Stopped& stopped);
+  // Waits for the moment of that tick. Ends early if it is stopped. Robots join once they have a place on the chart, in
+  // the order in which they were heard first; one that counted as dead is back as soon as it is heard.
+  [[nodiscard]] FleetChanges wait_for(std::uint32_t tick, const Stopped& stopped);
 
-  void tell_refusals(Refusals::Tell tell) { refusals_.tell(std::move(tell)); }
+  void tell_refusals(Refusals::Tell tell) {
+    refusals_.tell(std::move(tell), [this](NodeId id) { return roster_.name_of(id); });
+  }
   [[nodiscard]] const Chart& chart() const noexcept { return chart_; }
   [[nodiscard]] const std::optional<Status>& last(std::size_t i) const noexcept { return robots_[i].last; }
   [[nodiscard]] std::uint64_t received() const noexcept { return received_; }
@@ -53,6 +57,7 @@ class Listener final : public RemoteLink {
   void listen();
   [[nodiscard]] bool hear(const Envelope& envelope, const Address& from);
   void wait_until(double moment_s, const Stopped& stopped);
+  [[nodiscard]] std::vector<std::size_t> missing() const;
 
   ListenerOptions options_;
   KeyRing keys_;
@@ -61,7 +66,8 @@ class Listener final : public RemoteLink {
   Peers peers_;
   Refusals refusals_;
   Chart chart_;
-  std::vector<Robot> robots_;
+  std::vector<Robot> robots_;  // and room for more
+  std::size_t at_first_, arrived_;
   std::optional<double> begin_s_;
   std::uint64_t received_ = 0, dropped_ = 0;  // datagrams
 };

@@ -17,19 +17,25 @@ namespace banyan::udp {
 class Refusals {
  public:
   using Tell = std::function<void(const std::string& text)>;
-  // Nobody is told, by default.
-  void tell(Tell tell) { tell_ = std::move(tell); }
+  using NameOf = std::function<std::string(NodeId id)>;
+  // Nobody is told, by default. Robots are called by their ids, or else by `name_of` them.
+  void tell(Tell tell, NameOf name_of = {}) {
+    tell_ = std::move(tell);
+    name_of_ = std::move(name_of);
+  }
 
   // Datagrams from there are dropped; `sender` where it is authentic. What happens to everybody now and then (stale,
   // replayed) is not told.
   void refuse(Drop reason, const Address& from, std::optional<NodeId> sender);
   // Two programs say that they are the same robot: the one here is believed, another one is not.
-  void rival(NodeId robot, const Address& believed);
+  void rival(NodeId id, const Address& believed);
   // Anything else that is told once.
   void once(const std::string& text);
 
  private:
+  [[nodiscard]] std::string robot(NodeId id) const;
   Tell tell_;
+  NameOf name_of_;
   std::set<std::string> told_;
   std::map<NodeId, Address> rivals_;  // where somebody was heard last whose id was in use
 };

@@ -12,13 +12,15 @@
 
 #include "banyan/controller/core/elsewhere.hpp"
 #include "banyan/hosts/udp/messages.hpp"
+#include "banyan/hosts/udp/roster.hpp"
 
 namespace banyan::udp {
 
-// The way to the robots.
+// The way to the robots. Theirs are ids, the world's are indices: the roster says which is which.
 class RemoteLink {
  public:
   virtual ~RemoteLink() = default;
+  [[nodiscard]] const Roster& roster() const noexcept { return roster_; }
   // The newest status of robot i that has come since the last call; nothing if none has.
   [[nodiscard]] virtual std::optional<Status> take(std::size_t i) = 0;
   // `frame.mission` and `frame.begun` are the link's to fill in. Positions in `heard` are as of the frame.
@@ -27,7 +29,16 @@ class RemoteLink {
   virtual void dismiss(std::size_t i) = 0;
 
  protected:
-  RemoteLink() = default;
+  // `roster` must outlive it.
+  explicit RemoteLink(Roster& roster) noexcept : roster_(roster) {}
+  Roster& roster_;  // NOLINT(*-non-private-member-variables-in-classes)
+};
+
+// What has happened to the fleet by a tick: robots by their indices.
+struct FleetChanges {
+  std::vector<std::size_t> dead;    // from now on
+  std::vector<std::size_t> joined;  // the next ones, or some that counted as dead
+  [[nodiscard]] bool empty() const noexcept { return dead.empty() && joined.empty(); }
 };
 
 // Steps on one thread only.
@@ -43,6 +54,7 @@ class RemoteSwarm final : public SwarmElsewhere {
             std::span<Report> reports) override;
   void advance() noexcept override;
   void add_to(Digest& digest, std::size_t i) const noexcept override;
+  void restart(std::size_t i) override;
   void set_line_of_sight(bool on) noexcept override { line_of_sight_ = on; }
   [[nodiscard]] std::size_t memory_bytes() const noexcept override;
 
