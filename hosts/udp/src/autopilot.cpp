@@ -14,7 +14,7 @@ constexpr double silent_after_s = 2.0;    // heartbeats come once a second
 constexpr double estimate_lasts_s = 0.5;  // of a position and a heading
 constexpr double begin_within_s = 2.0;    // before it is said that nothing has been heard
 constexpr std::size_t most_sources = 8;
-constexpr std::uint8_t autopilot_component = 1, no_autopilot = 8;
+constexpr std::uint8_t autopilot_component = 1, ardupilot = 3, no_autopilot = 8;
 
 // ESTIMATOR_STATUS_FLAGS
 constexpr unsigned attitude_ok = 1, velocity_ok = 2, relative_position_ok = 8, absolute_position_ok = 16,
@@ -55,6 +55,7 @@ void Autopilot::hear_heartbeat(const MavlinkWord& word, const MavlinkHeartbeat& 
     other_system_ = word.system;
     return;
   }
+  is_ardupilot_ = heartbeat.autopilot == ardupilot;
   const auto known =
       std::find_if(sources_.begin(), sources_.end(), [&](const Source& source) { return source.address == from; });
   if (known != sources_.end()) known->heartbeat_s = now_s;
@@ -87,7 +88,7 @@ void Autopilot::hear(const MavlinkWord& word, const Address& from, double now_s)
   } else if (const auto* estimator = std::get_if<MavlinkEstimator>(&word.message)) {
     estimator_flags_ = estimator->flags;
   } else if (const auto* reference = std::get_if<MavlinkReference>(&word.message)) {
-    if (!setup_.origin || (knows_origin_ && !reference->is_origin)) return;
+    if (!setup_.origin || (!reference->is_origin && (knows_origin_ || is_ardupilot_))) return;
     knows_origin_ = knows_origin_ || reference->is_origin;
     const auto point = metres_from(*setup_.origin, {reference->latitude_deg, reference->longitude_deg});
     home_ = point - BasicVec2<double>{reference->east_m, reference->north_m};
@@ -128,8 +129,8 @@ std::string Autopilot::words_for(Fault fault) const {
       return "MAVLink system " + system +
              " has not said where it points for 0.5 s: ATTITUDE is needed ten times a second";
     case Fault::no_home:
-      return "MAVLink system " + system +
-             " has not said where its local frame begins: GPS_GLOBAL_ORIGIN or HOME_POSITION is needed once";
+      return "MAVLink system " + system + " has not said where its local frame begins: GPS_GLOBAL_ORIGIN" +
+             (is_ardupilot_ ? "" : " or HOME_POSITION") + " is needed once";
   }
   return {};
 }

@@ -187,6 +187,25 @@ TEST_F(AnAutopilot, HomeOnTheGlobe) {
   EXPECT_NEAR(autopilot_.place()->position.x, 7.0, 1e-3);
 }
 
+// Its home moves whenever it is armed, and HOME_POSITION has zeros in place of where that is in the local frame.
+TEST_F(AnAutopilot, ThatIsArduPilotMustSayItsOrigin) {
+  AutopilotSetup setup = at_home(0.0, 0.0);
+  setup.home.reset();
+  setup.origin = GlobePoint{47.0, 8.0};
+  autopilot_ = Autopilot(setup);
+  fly(3.0);
+  constexpr std::uint8_t ardupilot = 3;
+  say(MavlinkHeartbeat{2, ardupilot});
+  say(MavlinkReference{false, 47.001, 8.001, 0.0F, 0.0F});
+  autopilot_.refresh(now_s_);
+  EXPECT_TRUE(says("GPS_GLOBAL_ORIGIN is needed once")) << autopilot_.fault();
+  EXPECT_FALSE(autopilot_.place());
+  say(MavlinkReference{true, 47.0, 8.0, 0.0F, 0.0F});
+  autopilot_.refresh(now_s_);
+  EXPECT_FALSE(is_stopped());
+  EXPECT_NEAR(autopilot_.place()->position.x, 0.0, 1e-3);
+}
+
 TEST_F(AnAutopilot, ThatATrackerSeesHasNoPlaceOfItsOwn) {
   AutopilotSetup setup = at_home(0.0, 0.0);
   setup.home.reset();

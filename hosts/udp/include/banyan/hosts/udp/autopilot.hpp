@@ -27,7 +27,7 @@ struct GlobePoint {
 struct AutopilotSetup {
   std::uint8_t system = 1;  // MAV_SYS_ID of the vehicle
   double height_m = 0.0;    // to be kept, above the origin of its local frame
-  // Where that is, in the scenario's frame: given; or by the vehicle's HOME_POSITION or GPS_GLOBAL_ORIGIN, from where
+  // Where that is, in the scenario's frame: given; or by the vehicle's GPS_GLOBAL_ORIGIN or HOME_POSITION, from where
   // on the globe the scenario's origin is; or neither, if a tracker sees the vehicle.
   std::optional<BasicVec2<double>> home;
   std::optional<GlobePoint> origin;
@@ -67,6 +67,7 @@ class Autopilot {
   AutopilotSetup setup_;
   std::optional<BasicVec2<double>> home_;  // east, north
   bool knows_origin_ = false;              // by GPS_GLOBAL_ORIGIN, which says it directly
+  bool is_ardupilot_ = false;              // whose HOME_POSITION leaves out where that is in the local frame
   std::vector<Source> sources_;
   std::optional<std::uint8_t> other_system_;  // another autopilot that was heard
   PoseHistory poses_;
