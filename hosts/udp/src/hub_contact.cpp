@@ -15,8 +15,9 @@ class HubContact final : public Contact {
   std::optional<Drop> take(const Envelope& envelope, const Address& from, double now_s) override {
     const SecureChannel::Taken taken = channel_.take(envelope, now_s, ends_.keys);
     if (!taken.reply.empty()) ends_.socket.send(taken.reply, from);
+    // One that still waits for others says nothing else.
+    if (taken.counts || (envelope.kind == EnvelopeKind::answer && !taken.drop)) greeted_ = 0;
     if (!taken.counts) return taken.drop;
-    greeted_ = 0;
     const auto at = ends_.driver.pose_at(now_s - ends_.options.delay_s);
     switch (envelope.kind) {
       case EnvelopeKind::frame:

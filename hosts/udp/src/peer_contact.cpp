@@ -24,7 +24,10 @@ class PeerContact final : public Contact {
     const Peers::Taken taken = peers_.take(envelope, now_s, ends_.keys);
     if (!taken.reply.empty()) ends_.socket.send(taken.reply, from);
     if (taken.what == Peers::Taken::What::stop) stopped_ = true;
-    if (taken.is_contested) ends_.refusals.rival(envelope.sender, from);
+    if (taken.is_contested && envelope.sender == ends_.options.id)
+      ends_.refusals.once("another program at " + to_string(from) + " says that it is robot " +
+                          std::to_string(ends_.options.id) + ", too; one of them needs another --id");
+    else if (taken.is_contested) ends_.refusals.rival(envelope.sender, from);
     if (taken.what == Peers::Taken::What::message) return hear(envelope, now_s);
     return taken.drop;
   }

@@ -35,8 +35,9 @@ void Refusals::refuse(Drop reason, const Address& from, std::optional<NodeId> se
 
 void Refusals::rival(NodeId id, const Address& believed) {
   const auto other = rivals_.find(id);
-  once("refused a second " + robot(id) + (other == rivals_.end() ? "" : " at " + to_string(other->second)) +
-       ": the one at " + to_string(believed) + " is running; one of them needs another --id");
+  once("refused a second " + (id == hub_node ? "hub" : robot(id)) +
+       (other == rivals_.end() ? "" : " at " + to_string(other->second)) + ": the one at " + to_string(believed) +
+       " is running; one of them needs another --id");
 }
 
 }  // namespace banyan::udp
