@@ -91,8 +91,8 @@ struct Diagnosis {
   std::string name, message;
   std::vector<std::pair<std::string, std::string>> values;
 };
-// Of the mission, the network and the robots, in this order. An error is a network in several parts, or without a root
-// or a living robot.
+// Of the mission, the network and the robots, in this order. An error is a network in several parts, or without a
+// living robot.
 [[nodiscard]] std::vector<Diagnosis> diagnose(const measure::Tick& tick, std::size_t robots);
 void write_diagnostics(CdrWriter& out, const Stamp& stamp,
                        std::span<const Diagnosis> parts);  // diagnostic_msgs/msg/DiagnosticArray
