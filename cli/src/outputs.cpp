@@ -31,7 +31,9 @@ std::string default_directory(const world::Scenario& scenario) {
 bool make_directory(const std::string& directory) {
   std::error_code error;
   const bool created = fs::create_directories(directory, error);
-  if (error) throw CommandError(exit_lost, directory + ": cannot be created: " + error.message() + "; choose another place with --out DIR");
+  if (error)
+    throw CommandError(exit_lost,
+                       directory + ": cannot be created: " + error.message() + "; choose another place with --out DIR");
   return created;
 }
 

@@ -423,7 +423,8 @@ TEST_F(Program, ADirectoryThatCannotBeMadeIsSaidBeforeTheRun) {
   write("file", "x");
   const auto below = run({"run", "small.toml", "--out", "file/o"});
   EXPECT_EQ(below.code, 1);
-  EXPECT_TRUE(has(below.err, "file/o: cannot be created: Not a directory; choose another place with --out DIR")) << below.err;
+  EXPECT_TRUE(has(below.err, "file/o: cannot be created: Not a directory; choose another place with --out DIR"))
+      << below.err;
   const auto same = run({"run", "small.toml", "--out", "file"});
   EXPECT_EQ(same.code, 2);
   EXPECT_EQ(read("file"), "x");
