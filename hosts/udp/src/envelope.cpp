@@ -112,6 +112,7 @@ Bytes SecureChannel::seal(EnvelopeKind kind, ByteView payload, const KeyRing& ke
 Bytes SecureChannel::ask(double now_s, const KeyRing& keys) {
   Bytes payload;
   DatagramWriter(payload).put(question(now_s));
+  asked_s_ = now_s;
   return seal(EnvelopeKind::hello, 0, payload, keys);
 }
 
@@ -123,13 +124,13 @@ std::uint64_t SecureChannel::question(double now_s) {
     question_ = new_session();
     made_s_ = now_s;
   }
-  asked_s_ = now_s;
   return question_;
 }
 
-// Asks back in the same packet if the one who asks is not known.
+// Asks back in the same packet if the one who asks is not known, every time: if recorded packets of somebody could use
+// up the question, whoever is there now would not get it.
 Bytes SecureChannel::answer(const Envelope& to, std::uint64_t question, double now_s, const KeyRing& keys) {
-  const bool asks = to.session != believed_ && !has_owner(now_s) && may_ask(now_s);
+  const bool asks = to.session != believed_ && !has_owner(now_s);
   const std::uint64_t back = asks ? this->question(now_s) : 0;
   Bytes payload;
   DatagramWriter out(payload);

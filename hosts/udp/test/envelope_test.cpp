@@ -197,6 +197,16 @@ TEST(Envelope, NoRecordingMakesAnybodyBelieve) {
 }
 
 // Against a set of everything that was ever accepted.
+// A hello that is sent again and again gets its answers, and takes nothing from who is there.
+TEST(Envelope, NoRecordingKeepsAnybodyFromBeingBelieved) {
+  const KeyRing keys = ring({1});
+  SecureChannel before{3, hub_node, 100}, robot{3, hub_node, 101}, hub{hub_node, 3, 200};
+  const Bytes recorded = before.ask(0.0, keys);
+  for (int k = 0; k < 100; ++k) EXPECT_FALSE(give(hub, recorded, keys, 0.3 + 0.001 * k).reply.empty());
+  meet(robot, hub, keys, 0.4);
+  EXPECT_EQ(hub.peer_session(), 101U);
+}
+
 TEST(ReplayWindow, AcceptsEachOnceWhateverTheOrder) {
   std::mt19937 random(1);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same cases every time
   for (int round = 0; round < 200; ++round) {

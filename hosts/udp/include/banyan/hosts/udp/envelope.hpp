@@ -119,7 +119,7 @@ class SecureChannel {
   static constexpr double ask_every_s = 0.2;  // a stranger, at most
   std::uint64_t question_ = 0;                // that the peer has not answered; 0: none
   double made_s_ = 0.0;                       // when it was asked first,
-  double asked_s_ = 0.0;                      // and last
+  double asked_s_ = 0.0;                      // and last by a hello
   std::optional<double> rival_s_;             // when another session was refused first because this one has the id
 };
 
