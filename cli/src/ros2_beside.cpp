@@ -303,7 +303,9 @@ void Ros2Sink::heed(record::Simulation& simulation, FeedTopic topic, std::string
   }
   const std::string refusal =
       source + ": refused: " + printable_lines(asked.fault) + " (" + printable_lines(command) + ")";
-  complain(refusal);
+  constexpr std::size_t most = 32;  // anyone may ask, and must not fill the terminal
+  if (++refused_ <= most) complain(refusal);
+  if (refused_ == most) complain("what else is refused stands in /rosout alone");
   put_log("refused", refusal);
 }
 

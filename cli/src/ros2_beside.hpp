@@ -79,6 +79,7 @@ class Ros2Sink final : public record::Sink {
 
   record::Sink& kept_;
   Ros2Mission mission_;
+  std::size_t refused_ = 0;  // of what was asked
   bool gone_ = false;
   std::deque<std::string> waiting_;  // datagrams
   record::ros2::CdrWriter cdr_;

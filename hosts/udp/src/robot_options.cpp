@@ -110,6 +110,7 @@ void check_autopilot(const RobotOptions& options) {
   if (!options.peers.empty())
     throw OptionError(
         "--peers needs a base that measures where other robots are; an autopilot does not: fly with a hub");
+  if (options.speed < 1.0) throw OptionError("--speed below 1 would slow set-points down, too; leave it out");
   if (options.system == 0 && options.id >= 255)
     throw OptionError("--system is missing: without it, it is the id plus 1, and MAVLink's ids end at 255");
   if (options.height_m < 0.0)

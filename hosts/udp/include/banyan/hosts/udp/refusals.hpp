@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whom a hub, a robot or a listener refuses, in words, at once. Each is told once, and not more than 32: whoever has no
-// key must not fill a log.
+// Whom a hub, a robot or a listener refuses, in words, at once. Each is told once, and not more than 32 with a key and
+// 32 without: whoever has none must not fill a log.
 #pragma once
 
 #include <functional>
@@ -36,8 +36,9 @@ class Refusals {
   [[nodiscard]] std::string robot(NodeId id) const;
   Tell tell_;
   NameOf name_of_;
-  std::set<std::string> told_;
-  std::map<NodeId, Address> rivals_;  // where somebody was heard last whose id was in use
+  void tell_once(std::set<std::string>& told, const std::string& text) const;
+  std::set<std::string> told_, told_of_strangers_;  // whoever has no key must not use up the lines of those who have
+  std::map<NodeId, Address> rivals_;                // where somebody was heard last whose id was in use
 };
 
 }  // namespace banyan::udp
