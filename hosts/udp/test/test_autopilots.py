@@ -97,6 +97,11 @@ def becomes(so, seconds=20.0):
     return True
 
 
+def what_was_said(hub, robots):
+    hub.kill()
+    return hub.communicate()[1] + "".join(map(robots.said, range(COUNT)))
+
+
 def expect_complete(robots, outcome):
     assert outcome.returncode == 0, outcome.stderr + "".join(map(robots.said, range(COUNT)))
     assert "COMPLETE after" in outcome.stdout, outcome.stdout
@@ -162,7 +167,7 @@ def test_a_vehicle_in_trouble_stands_and_is_named_and_the_others_go_on(tmp_path,
     with airfield(tmp_path) as (robots, _):
         hub = subprocess.Popen(robots.hub(), cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         try:
-            assert becomes(lambda: any(speed(v) > 0.1 for v in robots.vehicles))
+            assert becomes(lambda: any(speed(v) > 0.1 for v in robots.vehicles)), what_was_said(hub, robots)
             vehicle = max(robots.vehicles, key=speed)  # a worker: without it, there is no end
             number = robots.vehicles.index(vehicle)
             others = [v for v in robots.vehicles if v is not vehicle]
@@ -213,7 +218,7 @@ def test_a_killed_controller_leaves_its_vehicle_to_the_autopilot(tmp_path):
     with airfield(tmp_path) as (robots, _):
         hub = subprocess.Popen(robots.hub(), cwd=tmp_path, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
-            assert becomes(lambda: any(speed(v) > 0.1 for v in robots.vehicles))
+            assert becomes(lambda: any(speed(v) > 0.1 for v in robots.vehicles)), what_was_said(hub, robots)
             vehicle = max(robots.vehicles, key=speed)
             robots.processes[robots.vehicles.index(vehicle)].send_signal(signal.SIGKILL)
             assert becomes(lambda: not vehicle.offboard and speed(vehicle) < 0.01)
