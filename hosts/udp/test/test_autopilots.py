@@ -25,12 +25,14 @@ GRID = [(0.32 * (i % 3 - 1), 0.32 * (i // 3 - 1)) for i in range(COUNT)]
 
 
 def free_ports(count):
-    sockets = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(count)]
-    for one in sockets:
-        one.bind(("127.0.0.1", 0))
-    ports = [one.getsockname()[1] for one in sockets]
-    for one in sockets:
-        one.close()
+    """Below those that the system hands out, to robots that begin meanwhile, too."""
+    ports = []
+    while len(ports) < count:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one:
+            port = random.randrange(10000, 30000)
+            with contextlib.suppress(OSError):
+                one.bind(("127.0.0.1", port))
+                ports += [port] * (port not in ports)
     return ports
 
 
