@@ -99,6 +99,8 @@ class Conductor {
                             const record::GoOn& go_on) {
     std::optional<Ros2Sink> ros2;
     if (ros2_.socket >= 0) ros2.emplace(sink, ros2_);
+    for (std::size_t i = 0; i < hub_.roster().size() && !options_.names.empty(); ++i)
+      world.call(i, hub_.roster().name(i));
     record::Simulation simulation(std::move(world), ros2 ? *ros2 : sink);
     const auto stopped = [&] { return !go_on(simulation); };
     simulation.stop_when(stopped);
@@ -169,6 +171,7 @@ class Conductor {
       if (told_.insert(robot).second) complain(at(simulation, robot) + " cannot join yet: " + faults.front().text);
       return;
     }
+    if (!options_.names.empty()) simulation.call(robot, hub_.roster().name(robot));
     simulation.intervene(event);
     complain(at(simulation, robot) + " has joined");
     coming_.pop_front();

@@ -65,10 +65,14 @@ world::Scenario told_by(const udp::Listener& listener, const std::vector<std::si
 // Makes the ticks of a world of what has been told by then.
 class Ears {
  public:
-  Ears(udp::Listener& listener, std::vector<std::size_t> workers) : listener_(listener), workers_(std::move(workers)) {}
+  // `has_names`: others than numbers.
+  Ears(udp::Listener& listener, std::vector<std::size_t> workers, bool has_names)
+      : listener_(listener), workers_(std::move(workers)), has_names_(has_names) {}
 
   record::RunEnd operator()(world::World world, record::Sink& sink, world::Executor& executor,
                             const record::GoOn& go_on) {
+    const udp::Roster& roster = listener_.roster();
+    for (std::size_t i = 0; i < roster.size() && has_names_; ++i) world.call(i, roster.name(i));
     record::Simulation simulation(std::move(world), sink);
     const auto stopped = [&] { return !go_on(simulation); };
     simulation.stop_when(stopped);
@@ -82,6 +86,7 @@ class Ears {
       }
       for (const std::size_t robot : changes.joined) {
         complain(at(simulation, robot) + " has joined");
+        if (has_names_) simulation.call(robot, roster.name(robot));
         happen(simulation, world::Join{robot, listener_.chart().poses()[robot]->position});
       }
       for (std::size_t k = 0; k < workers_.size(); ++k) look_at_target(simulation, k);
@@ -112,6 +117,7 @@ class Ears {
 
   udp::Listener& listener_;
   std::vector<std::size_t> workers_;
+  bool has_names_;
 };
 
 std::string remarks_on(const udp::Listener& listener) {
@@ -151,7 +157,7 @@ int record_mission(const ListenOptions& options) {
     run.threads = 1;
     world::World world(scenario, remote, tracked_bodies(listener.chart().poses()));
     const int code = keep_run(
-        configuration, outputs, run, [&] { return std::move(world); }, Ears(listener, workers),
+        configuration, outputs, run, [&] { return std::move(world); }, Ears(listener, workers, !options.names.empty()),
         [&] { return remarks_on(listener); });
     page.stay();
     return code;

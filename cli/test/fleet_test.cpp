@@ -865,6 +865,13 @@ TEST_F(FleetProgram, RefusesWhatCannotBe) {
   EXPECT_TRUE(has(robot.err, "no_such_m is unknown")) << robot.err;
 }
 
+TEST_F(FleetProgram, RecordingsHaveTheNamesOfRobots) {
+  const Outcome outcome =
+      run({"fleet", three_targets, "--speed", "5", "--names", "cf_{01-08},lead_42", "--out", "result", "--quiet"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(has(read("result/run.mcap"), R"("names":["cf_01","cf_02","cf_03")"));
+}
+
 TEST_F(FleetProgram, RobotsAreCalledByTheirNames) {
   const auto printed = run({"hub", three_targets, "--key", "k", "--print-robots", "--names", "cf_{08-16}"});
   EXPECT_EQ(printed.code, 0) << printed.err;

@@ -12,7 +12,13 @@ namespace banyan::record {
 
 namespace {
 
-std::string robot_name(std::int64_t robot) { return "robot " + std::to_string(robot); }
+using RobotNames = std::vector<std::string>;
+
+// By its name, or else its index.
+std::string called(const RobotNames& names, std::int64_t robot) {
+  const auto at = static_cast<std::size_t>(robot);  // -1: beyond all
+  return at < names.size() && !names[at].empty() ? names[at] : std::to_string(robot);
+}
 std::string target_name(std::size_t target) { return "target T" + std::to_string(target); }
 
 std::string metres(double value) {
@@ -80,14 +86,15 @@ struct BrokenEdge {
 };
 
 // Why robots in range of each other have no line of sight; "" if they have one.
-std::string occluded_by(const world::Scene& scene, std::int32_t i, std::int32_t j) {
+std::string occluded_by(const world::Scene& scene, const RobotNames& names, std::int32_t i, std::int32_t j) {
   const auto blocker = world::blocker(scene, static_cast<std::size_t>(i), static_cast<std::size_t>(j));
   if (!blocker) return "";
   const auto index = static_cast<std::int64_t>(blocker->index);
-  return "occluded by " + (blocker->is_obstacle ? "obstacle " + std::to_string(index) : robot_name(index));
+  return "occluded by " +
+         (blocker->is_obstacle ? "obstacle " + std::to_string(index) : "robot " + called(names, index));
 }
 
-void judge_edge(const world::Scene& scene, const Frame& frame, std::size_t i, bool old,
+void judge_edge(const world::Scene& scene, const RobotNames& names, const Frame& frame, std::size_t i, bool old,
                 std::vector<BrokenEdge>& broken) {
   const RobotFrame& robot = frame.robots[i];
   const std::int32_t to = old ? robot.old_parent : robot.parent;
@@ -95,7 +102,7 @@ void judge_edge(const world::Scene& scene, const Frame& frame, std::size_t i, bo
   const double length = distance(robot.position, frame.robots[static_cast<std::size_t>(to)].position);
   BrokenEdge edge{static_cast<std::int32_t>(i), to, old, ""};
   if (!(length < scene.range_m)) edge.why = metres(length) + " apart, out of range";
-  else if (scene.line_of_sight) edge.why = occluded_by(scene, edge.robot, to);
+  else if (scene.line_of_sight) edge.why = occluded_by(scene, names, edge.robot, to);
   if (!edge.why.empty()) broken.push_back(std::move(edge));
 }
 
@@ -107,13 +114,15 @@ std::vector<BrokenEdge> broken_edges(const Setting& setting, const Frame& frame)
   for (std::size_t i = 0; i < frame.robots.size(); ++i) {
     const RobotFrame& robot = frame.robots[i];
     if (!robot.alive || robot.role == Role::spare) continue;
-    judge_edge(scene, frame, i, false, broken);
-    if (robot.old_parent != robot.parent) judge_edge(scene, frame, i, true, broken);
+    judge_edge(scene, setting.names, frame, i, false, broken);
+    if (robot.old_parent != robot.parent) judge_edge(scene, setting.names, frame, i, true, broken);
   }
   return broken;
 }
 
 }  // namespace
+
+std::string EventWatcher::robot_name(std::int64_t robot) const { return "robot " + called(*names_, robot); }
 
 void EventWatcher::add(std::string_view kind, std::int64_t robot, std::int64_t target, std::string text) {
   events_.push_back({tick_, time_s_, std::string(kind), robot, target, std::move(text)});
@@ -124,6 +133,7 @@ const std::vector<RecordedEvent>& EventWatcher::watch(const Setting& setting, co
   events_.clear();
   tick_ = frame.tick;
   time_s_ = frame.time_s;
+  names_ = &setting.names;
   if (started_) {
     watch_setting(setting);
     watch_robots(frame);
@@ -346,7 +356,7 @@ void EventWatcher::watch_edges(const Setting& setting, const Frame& frame, const
     text += ", " + std::to_string(tick.broken_by_occlusion) + " occluded";
   std::vector<std::string> names;
   names.reserve(edges.size());
-  for (const BrokenEdge& edge : edges) names.push_back(std::to_string(edge.robot));
+  for (const BrokenEdge& edge : edges) names.push_back(called(setting.names, edge.robot));
   if (!names.empty()) text += ": of the robots " + listed(names);
   add("edges_broken", edges.empty() ? -1 : edges.front().robot, -1, text + all);
 }

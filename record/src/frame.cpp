@@ -130,12 +130,13 @@ Setting setting_of(const world::World& world) {
   setting.dead_bodies = scenario.robot.dead_bodies;
   setting.target_tolerance_m = world::target_tolerance_m(scenario);
   setting.time_limit_s = world::time_limit_s(scenario);
+  setting.names.assign(world.names().begin(), world.names().end());
   setting.obstacles.assign(world.obstacles().begin(), world.obstacles().end());
   return setting;
 }
 
 bool still_holds(const Setting& setting, const world::World& world) noexcept {
-  return setting.line_of_sight == world.line_of_sight() &&
+  return setting.line_of_sight == world.line_of_sight() && std::ranges::equal(setting.names, world.names()) &&
          std::equal(setting.obstacles.begin(), setting.obstacles.end(), world.obstacles().begin(),
                     world.obstacles().end());
 }

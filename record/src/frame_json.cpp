@@ -429,6 +429,16 @@ void write_setting(Text& out, const Setting& s) {
   out.put(s.dead_bodies ? "true," : "false,");
   real("target_tolerance_m", s.target_tolerance_m);
   real("time_limit_s", s.time_limit_s);
+  if (!s.names.empty()) {
+    key(out, "names");
+    out.put('[');
+    for (const std::string& name : s.names) {
+      out.json_string(name);
+      out.put(',');
+    }
+    out.drop_last();
+    out.put("],");
+  }
   key(out, "obstacles");
   out.put('[');
   for (const world::Obstacle& obstacle : s.obstacles) {
@@ -454,6 +464,13 @@ Setting read_setting(std::string_view text) {
   s.dead_bodies = flag_of(o, "dead_bodies");
   s.target_tolerance_m = number_of(o, "target_tolerance_m", 0.0, far);
   s.time_limit_s = number_of(o, "time_limit_s", 0.0, far);
+  if (const auto names = o.find("names"); names != o.end()) {
+    if (!names->is_array()) fail("names", "is not an array");
+    for (const json& name : *names) {
+      if (!name.is_string()) fail("names", "holds something that is no text");
+      s.names.push_back(name.get<std::string>());
+    }
+  }
   const json& obstacles = member(o, "obstacles");
   if (!obstacles.is_array()) fail("obstacles", "is not an array");
   for (const json& obstacle : obstacles) s.obstacles.push_back(read_obstacle(obstacle));
@@ -546,6 +563,7 @@ std::string setting_schema() {
   schema_property(out, "dead_bodies", "boolean", "whether the dead hide what is behind them");
   schema_property(out, "target_tolerance_m", "number", "distance at which a target is reached");
   schema_property(out, "time_limit_s", "number", "of the mission");
+  schema_array(out, "names", "string", "of robots, in their order; left out where they have numbers alone");
   schema_array(out, "obstacles", "object", "discs, boxes and walls");
   out.put("}}");
   return std::string(out.view());

@@ -99,6 +99,22 @@ TEST(Targets, AreReadWholeOrNotAtAll) {
     EXPECT_THROW((void)read_targets(text), std::runtime_error) << text;
 }
 
+TEST(Settings, HaveNamesWhereRobotsHaveThem) {
+  Text text;
+  Setting setting;
+  write_setting(text, setting);
+  EXPECT_EQ(text.view().find("names"), std::string_view::npos);
+  setting.names = {"cf_1", "", "l\u00e9o \"2\""};
+  text.clear();
+  write_setting(text, setting);
+  EXPECT_TRUE(read_setting(text.view()) == setting);
+  Json damaged = Json::parse(text.view());
+  for (const Json& wrong : {Json(7), Json{1, 2}, Json("cf_1")}) {
+    damaged["names"] = wrong;
+    EXPECT_THROW((void)read_setting(damaged.dump()), std::runtime_error) << wrong;
+  }
+}
+
 TEST(Settings, HaveAllTheirFields) {
   Text text;
   Setting setting;

@@ -360,6 +360,27 @@ TEST(Events, SayWhatHappenedToWhom) {
           "worker 0: robot 0 takes over the target of a worker that is lost", "death 2: robot 2 died, a worker"}));
 }
 
+TEST(Events, CallRobotsByTheirNames) {
+  const test::TemporaryDirectory directory;
+  Told told(directory.file("a.mcap"));
+  Setting setting;
+  setting.names = {"cf_1", "cf_2", "lead"};
+  Frame frame = chain();
+  told.next(setting, frame);
+  frame.robots[1].alive = false;
+  told.next(setting, frame);
+  frame.robots[2].role = Role::root;
+  told.next(setting, frame);
+  setting.names.emplace_back("cf_7");
+  frame.robots.emplace_back();
+  frame.robots[3].alive = false;  // without a name until now
+  told.next(setting, frame);
+  EXPECT_EQ(told.events(), (std::vector<std::string>{"death 1: robot cf_2 died, a connector; 1 child hangs on it",
+                                                     "root 2: robot lead is root beside robot cf_1",
+                                                     "death 3: robot cf_7 died, a spare",
+                                                     "join 4: robot 4 has joined at (0.00, 0.00) m"}));
+}
+
 TEST(Events, ABrokenEdgeIsNamedWithItsReason) {
   const test::TemporaryDirectory directory;
   Setting setting;

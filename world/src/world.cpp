@@ -124,6 +124,7 @@ World::Impl::Impl(const Impl& o)
       targets(o.targets),
       courses(o.courses),
       arrived(o.arrived),
+      names(o.names),
       alive(o.alive),
       raised(o.raised),
       frozen_until(o.frozen_until),
@@ -412,6 +413,12 @@ std::span<const Vec2> World::headings() const noexcept { return impl_->poses.hea
 std::span<const Report> World::reports() const noexcept { return impl_->reports; }
 std::span<const std::uint8_t> World::alive() const noexcept { return impl_->alive; }
 std::size_t World::arrived() const noexcept { return impl_->arrived; }
+std::span<const std::string> World::names() const noexcept { return impl_->names; }
+
+void World::call(std::size_t robot, const std::string& name) {
+  if (impl_->names.size() <= robot) impl_->names.resize(robot + 1);
+  impl_->names[robot] = name;
+}
 std::span<const Target> World::targets() const noexcept { return impl_->targets; }
 std::span<const Obstacle> World::obstacles() const noexcept { return impl_->obstacles; }
 bool World::line_of_sight() const noexcept { return impl_->line_of_sight; }

@@ -130,6 +130,7 @@ struct World::Impl {
   std::vector<Target> targets;
   std::vector<TargetMotion> courses;  // one per target
   std::size_t arrived = 0;            // robots from here on have not joined yet: they are not alive, and far outside
+  std::vector<std::string> names;
   std::vector<std::uint8_t> alive;
   std::vector<std::uint8_t> raised;         // antennas; empty unless sight leaks
   std::vector<std::uint64_t> frozen_until;  // tick; 0: not frozen

@@ -30,10 +30,12 @@ class EventWatcher {
   void watch_arrivals(const Setting& setting, const Frame& frame, const measure::Tick& tick);
   void watch_radio(const measure::Tick& tick);
   void watch_edges(const Setting& setting, const Frame& frame, const measure::Tick& tick);
+  [[nodiscard]] std::string robot_name(std::int64_t robot) const;
   void add(std::string_view kind, std::int64_t robot, std::int64_t target, std::string text);
 
   bool started_ = false;
   Setting setting_;
+  const std::vector<std::string>* names_ = nullptr;  // of the setting that is being watched
   Frame last_;
   measure::Tick last_tick_;
   std::vector<std::int32_t> reached_;   // per target: the worker that has reached it, -1: none that still serves it

@@ -71,6 +71,7 @@ struct Setting {
   bool dead_bodies = true;  // the dead hide what is behind them; false: they vanish
   double target_tolerance_m = 0.2;
   double time_limit_s = 0.0;
+  std::vector<std::string> names;  // World::names
   std::vector<world::Obstacle> obstacles;
   friend bool operator==(const Setting&, const Setting&) = default;
 };
@@ -82,7 +83,7 @@ struct Setting {
 // Reuses the memory of `frame`. O(robots + links).
 void capture(const world::World& world, Frame& frame);
 [[nodiscard]] Setting setting_of(const world::World& world);  // as it is now
-// Whether setting_of(world) would still be `setting`, which it was before. O(obstacles), no allocation.
+// Whether setting_of(world) would still be `setting`, which it was before. O(obstacles + names), no allocation.
 [[nodiscard]] bool still_holds(const Setting& setting, const world::World& world) noexcept;
 
 // Names as they appear in exports ("connector", "grow_tree", "no_need", "extend_edge").

@@ -19,6 +19,7 @@ class Simulation {
 
   void step(world::Executor& executor);  // one tick, also beyond the end of the mission
   void intervene(const world::Event& event) { world_.intervene(event); }
+  void call(std::size_t robot, const std::string& name) { world_.call(robot, name); }
   void stop_when(const std::function<bool()>& asked) { observer_.stop_when(asked); }  // within a step, too
   RunEnd finish(bool interrupted);  // finishes the sink; no step may follow
 

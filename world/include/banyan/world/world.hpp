@@ -66,6 +66,10 @@ class World {
   [[nodiscard]] std::size_t size() const noexcept;    // robots, dead ones included, and those that have not joined yet
   // Robots from this index on have not joined yet: they are not alive, and stand far outside.
   [[nodiscard]] std::size_t arrived() const noexcept;
+  // What robots are called where people read, by index; shorter, or "", where they have their number alone. Of no
+  // consequence for anything that happens.
+  [[nodiscard]] std::span<const std::string> names() const noexcept;
+  void call(std::size_t robot, const std::string& name);
   [[nodiscard]] std::span<const Vec2> positions() const noexcept;
   [[nodiscard]] std::span<const Vec2> headings() const noexcept;  // unit vectors
   // The report of each robot, as of its last step; of a dead one, as of its last step before it died.
