@@ -136,7 +136,8 @@ Setting setting_of(const world::World& world) {
 }
 
 bool still_holds(const Setting& setting, const world::World& world) noexcept {
-  return setting.line_of_sight == world.line_of_sight() && std::ranges::equal(setting.names, world.names()) &&
+  return setting.line_of_sight == world.line_of_sight() &&
+         std::equal(setting.names.begin(), setting.names.end(), world.names().begin(), world.names().end()) &&
          std::equal(setting.obstacles.begin(), setting.obstacles.end(), world.obstacles().begin(),
                     world.obstacles().end());
 }
