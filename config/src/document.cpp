@@ -299,14 +299,6 @@ Node parse_value(std::string_view text, const std::shared_ptr<const std::string>
   return {std::string(text), {origin, 0}};
 }
 
-bool good_name(std::string_view name) {
-  const auto good = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
-           c == '.';
-  };
-  return !name.empty() && name.size() <= 100 && name.front() != '.' && std::all_of(name.begin(), name.end(), good);
-}
-
 std::string name_from(const std::string& path, std::string_view fallback) {
   std::string name = path == "-" ? "standard-input" : std::filesystem::path(path).stem().string();
   for (char& c : name) {

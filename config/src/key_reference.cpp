@@ -12,8 +12,9 @@ namespace {
 using world::Type;
 
 std::string_view type_name(Type type) {
-  constexpr std::array<std::string_view, 8> names = {"true or false", "whole number",  "number",         "name", "text",
-                                                     "[x, y]",        "[[x, y], ...]", "list of numbers"};
+  constexpr std::array<std::string_view, 9> names = {"true or false", "whole number",  "number",         "name", "text",
+                                                     "[x, y]",        "[[x, y], ...]", "list of numbers",
+                                                     "[[\"a\", \"b\"], ...]"};
   return names.at(static_cast<std::size_t>(type));
 }
 
@@ -24,6 +25,9 @@ struct ValueText {
   std::string operator()(double x) const { return number_text(x); }
   std::string operator()(const std::string& text) const { return text; }
   std::string operator()(world::Vec2 p) const { return "[" + number_text(p.x) + ", " + number_text(p.y) + "]"; }
+  std::string operator()(const std::pair<std::string, std::string>& pair) const {
+    return "[\"" + pair.first + "\", \"" + pair.second + "\"]";
+  }
   template <class Element> std::string operator()(const std::vector<Element>& list) const {
     std::string text;
     for (const Element& element : list) text += (text.empty() ? "" : ", ") + (*this)(element);

@@ -60,6 +60,7 @@ std::vector<std::pair<std::string, std::string>> known_names(const AlgorithmList
   add(output_keys());
   add(world::obstacle_keys());
   add(world::event_keys());
+  add(world::station_keys());
   for (const auto& section : sections()) {
     if (section.path.empty()) continue;
     const auto dot = section.path.rfind('.');
@@ -131,7 +132,10 @@ Configuration ScenarioReader::read(const Node& root) {
   Choices choices;
   each_part(configuration, [&](const auto& keys, auto& owner) { read_selectors(part, keys, owner, choices); });
   read_section(part, choices, configuration);
-  if (!root.find("targets")) report(root.place, "targets", "the section [targets] is missing: it says where to go");
+  if (root.find("targets")) return configuration;
+  // Stations and visits are missions, too.
+  if (root.find("stations") || root.find("visits")) configuration.scenario.targets = std::vector<Vec2>{};
+  else report(root.place, "targets", "the section [targets] is missing: it says where to go");
   return configuration;
 }
 
@@ -357,6 +361,7 @@ Value ScenarioReader::read_value(const Node& node, const std::string& path, cons
     case Type::point: return read_point(node, path, key.range, key.unit);
     case Type::points: return read_points(node, path, key.range, key.unit);
     case Type::numbers: return read_numbers(node, path, key.range, key.unit);
+    case Type::pairs: return read_pairs(node, path);
     case Type::text: break;
   }
   const auto* text = node.string();
@@ -447,6 +452,23 @@ Value ScenarioReader::read_numbers(const Node& node, const std::string& path, co
     if (number.index() != 0) list[i] = std::get<double>(number);
   }
   return list;
+}
+
+Value ScenarioReader::read_pairs(const Node& node, const std::string& path) {
+  const auto fault = [&](const Node& at, const std::string& shown) {
+    report(at.place, shown, "must be a list of pairs of names [[\"a\", \"b\"], ...], not " + at.describe());
+  };
+  if (!node.array()) return fault(node, path), Value();
+  world::NamePairs pairs;
+  for (std::size_t i = 0; i < node.array()->size(); ++i) {
+    const Node& item = (*node.array())[i];
+    const std::string shown = path + "[" + std::to_string(i) + "]";
+    places_.emplace(shown, item.place);
+    const auto* two = item.array();
+    if (two == nullptr || two->size() != 2 || !(*two)[0].string() || !(*two)[1].string()) fault(item, shown);
+    else pairs.emplace_back(*(*two)[0].string(), *(*two)[1].string());
+  }
+  return pairs;
 }
 
 }  // namespace banyan::config

@@ -75,6 +75,7 @@ class ScenarioReader {
   world::Value read_name(const Node& node, const std::string& path, world::Names names);
   world::Value read_point(const Node& node, const std::string& path, const Range& range, std::string_view unit);
   world::Value read_points(const Node& node, const std::string& path, const Range& range, std::string_view unit);
+  world::Value read_pairs(const Node& node, const std::string& path);
   world::Value read_numbers(const Node& node, const std::string& path, const Range& range, std::string_view unit);
 
   std::vector<Problem>& problems_;

@@ -19,6 +19,11 @@ struct ToJson {
     for (const world::Vec2 p : list) items.push_back((*this)(p));
     return items;
   }
+  Json operator()(const world::NamePairs& pairs) const {
+    Json items = Json::array();
+    for (const auto& [a, b] : pairs) items.push_back(Json::array({a, b}));
+    return items;
+  }
   template <class Plain> Json operator()(const Plain& value) const { return value; }
 };
 
@@ -43,9 +48,24 @@ Json& place_of_section(Json& root, std::string_view path) {
   return *at;
 }
 
+// Tables of a list, or keys with a value.
+std::size_t size_of(const Configuration& configuration, const world::Section& section) {
+  if (section.repeated) {
+    std::size_t size = 0;
+    world::each_list(configuration.scenario, [&](std::string_view path, const auto&, const auto& list) {
+      if (path == section.path) size = list.size();
+    });
+    return size;
+  }
+  Json table = Json::object();
+  each_part(configuration, [&](const auto& keys, const auto& owner) { add_section(table, section.path, keys, owner); });
+  return table.size();
+}
+
 Json to_json(const Configuration& configuration) {
   Json root = Json::object();
   for (const auto& section : sections()) {
+    if (section.left_out && size_of(configuration, section) == 0) continue;
     Json& place = place_of_section(root, section.path);
     if (section.repeated) {
       place = Json::array();

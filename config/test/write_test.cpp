@@ -55,6 +55,7 @@ template <class Owner> rc::Gen<json> value_of(const world::Key<Owner>& key) {
     case Type::point: return point;
     case Type::points: return list(point);
     case Type::numbers: return list(real);
+    case Type::pairs: return rc::gen::just(json::array({json::array({"a", "b"})}));
     case Type::name:
       return rc::gen::map(rc::gen::inRange<std::size_t>(0, key.access.names(blank<Owner>()).size()),
                           [names = key.access.names(blank<Owner>())](std::size_t i) { return json(names[i]); });

@@ -25,6 +25,13 @@ constexpr Column<HeldTargets::Row> held_targets_table[] = {
                                             "active targets held at the end by a worker that the tree joins to a root"),
     column<&HeldTargets::Row::missed_targets>("missed_targets",
                                               "the other active targets, by index, each with the reason"),
+    {"visited_places", "places of visits.positions_m at which a robot has been; empty without such places", 0,
+     [](const HeldTargets::Row& row) {
+       return row.visited_places < 0 ? Cell{} : Cell{static_cast<std::uint64_t>(row.visited_places)};
+     },
+     "visited places"},
+    quantity<&HeldTargets::Row::visited_s>("visited_s", "when robots had been at all of them; empty if never",
+                                           "all places visited after (s)"),
     column<&HeldTargets::Row::lost_holders>("lost_holders", "workers that died at their targets",
                                             "workers that died at their targets"),
     quantity<&HeldTargets::Row::held_again_s>(
@@ -73,6 +80,10 @@ HeldTargets::HeldTargets(const world::World& start, Row& /*row*/)
 void HeldTargets::observe(const Moment& now, Row& row) {
   takeovers_.observe(now.holders, now.world.targets(), now.world.alive());
   row.held_ratio = now.tick.held_share();
+  if (now.tick.visits > 0) {
+    row.visited_places = now.tick.visited;
+    if (row.visited_s < 0.0 && now.tick.visited == now.tick.visits) row.visited_s = now.tick.time_s;
+  }
   if (!now.run.complete) return;
   ++ticks_;
   held_sum_ += row.held_ratio;
@@ -89,7 +100,7 @@ void HeldTargets::sum_up(const Moment& end, Row& row) const {
   row.held_again_s = takeovers_.median_s();
   const auto targets = end.world.targets();
   for (std::size_t t = 0; t < targets.size(); ++t) {
-    if (!targets[t].active) continue;
+    if (!targets[t].active || targets[t].visit) continue;
     const std::string why = why_not_held(end.world, targets[t], tolerance_m_);
     if (why.empty()) ++row.held_targets;
     else row.missed_targets += (row.missed_targets.empty() ? "" : ", ") + std::to_string(t) + " " + why;

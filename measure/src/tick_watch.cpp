@@ -94,10 +94,13 @@ void TickWatch::measure_targets(const world::World& world, Tick& tick) {
       if (std::sqrt(away) <= tolerance_m_) holders_[t] = static_cast<RobotId>(i);
     }
   }
+  if (world.scenario().visits.positions)
+    tick.visits = static_cast<std::uint32_t>(world.scenario().visits.positions->size());
+  tick.visited = static_cast<std::uint32_t>(world.visited());
   tick.worst_target_distance_m = 0.0;
   tick.targets_reached = tick.active_targets = 0;
   for (std::size_t t = 0; t < targets.size(); ++t) {
-    if (!targets[t].active) continue;
+    if (!targets[t].active || targets[t].visit) continue;
     ++tick.active_targets;
     const double distance_m = std::sqrt(nearest_worker_[t]);
     if (distance_m <= tolerance_m_) ++tick.targets_reached;

@@ -57,7 +57,14 @@ class CheckEventFits {
     std::visit(*this, event.action);
   }
   void operator()(const Die& die) const { robot(die.robot); }
-  void operator()(const Freeze& freeze) const { robot(freeze.robot); }
+  void operator()(const Freeze& freeze) const {
+    robot(freeze.robot);
+    const std::size_t first = free_robot_count(scenario_), after = first + scenario_.stations.size();
+    if (freeze.robot >= first && freeze.robot < after)
+      list_.fail(key_ + ".robot", "robot " + std::to_string(freeze.robot) + " is the station " +
+                                      scenario_.stations[freeze.robot - first].name +
+                                      ", which goes where its course says");
+  }
   void operator()(const MoveTarget& move) const {
     target(move.target);
     room(move.position);
@@ -92,6 +99,11 @@ class CheckEventFits {
     if (i >= before_.targets)
       list_.fail(key_ + ".target", "there is no target " + std::to_string(i) + " at that time; the last one is " +
                                        std::to_string(before_.targets - 1));
+    const std::size_t all = target_positions(scenario_).size();
+    const auto stations = static_cast<std::size_t>(std::count_if(
+        scenario_.stations.begin(), scenario_.stations.end(), [](const Station& station) { return !station.root; }));
+    if (i < all && i + stations >= all)
+      list_.fail(key_ + ".target", "target " + std::to_string(i) + " is where a station is, and goes with it");
   }
   [[nodiscard]] bool obstacle(std::size_t i) const {
     const std::size_t count = before_.obstacles.size();
@@ -135,7 +147,11 @@ std::size_t check_in_order(FaultList& list, const Scenario& scenario, std::size_
     return waits(i) && std::holds_alternative<AddTarget>(events[i].action);
   }));
   const End end(scenario);
-  Sequel sequel{targets + adds_late, targets, targets, {}, scenario.obstacles, robots, place_count(scenario)};
+  // Stations hold their places themselves.
+  const auto held = static_cast<std::size_t>(std::count_if(scenario.stations.begin(), scenario.stations.end(),
+                                                           [](const Station& station) { return !station.root; }));
+  const std::size_t there = robots + scenario.stations.size(), served = targets - held;
+  Sequel sequel{targets + adds_late, served, served, {}, scenario.obstacles, there, place_count(scenario)};
   for (const std::size_t i : order) {
     if (waits(i)) continue;
     // Its constructor is the check. NOLINTNEXTLINE(bugprone-unused-raii)
@@ -167,7 +183,7 @@ bool check_events_fit(FaultList& list, const Scenario& scenario, std::size_t tar
 std::vector<Fault> event_faults(const Scenario& scenario, const Present* now) {
   FaultList list;
   check_event_values(list, scenario.events);
-  const std::size_t robots = robot_count(scenario);
+  const std::size_t robots = free_robot_count(scenario);
   if (!list.failed()) check_events_fit(list, scenario, target_positions(scenario).size(), robots);
   if (list.failed() || now == nullptr || scenario.events.empty()) return list.take();
   const std::size_t last = scenario.events.size() - 1;

@@ -18,6 +18,7 @@ constexpr std::uint64_t forever = std::numeric_limits<std::uint64_t>::max();
 
 void World::Impl::happen() {
   drive_targets();
+  send_to_visits();
   const double now_s = static_cast<double>(tick) * scenario.tick_s;
   watch_for_moments(now_s);
   while (const auto entry = event_queue.take(now_s + time_rounding_s(scenario))) apply(*entry);
@@ -35,6 +36,51 @@ void World::Impl::drive_targets() {
   }
 }
 
+// Places where somebody has been are done with; others that take too long have to wait for their next turn. Spares
+// only are sent, since a connector has others below it: the nearest to any place that has been tried least often.
+void World::Impl::send_to_visits() {
+  if (!scenario.visits.positions) return;
+  constexpr double ways = 4.0, ticks = 100.0;
+  std::size_t under_way = 0;
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    if (!targets[t].visit || !targets[t].active) continue;
+    if (holder(t)) {
+      ++visited;
+      give_up(t);
+    } else if (tick >= courses[t].until) {
+      visits.push_back({targets[t].position, courses[t].tried + 1});
+      give_up(t);
+    } else {
+      ++under_way;
+    }
+  }
+  for (; under_way < scenario.visits.at_once.value_or(1) && !visits.empty(); ++under_way) {
+    int least = std::numeric_limits<int>::max();
+    for (const Visit& visit : visits) least = std::min(least, visit.tried);
+    double best_m = std::numeric_limits<double>::infinity();
+    std::size_t robot = alive.size(), chosen = 0;
+    for (std::size_t k = 0; k < visits.size(); ++k)
+      for (std::size_t i = 0; i < alive.size() && visits[k].tried == least; ++i) {
+        const double way_m = distance(poses.position[i], visits[k].place);
+        if (alive[i] == 0 || reports[i].role != Role::spare || target_of[i] >= 0 || station_of(i) != nullptr ||
+            way_m >= best_m)
+          continue;
+        best_m = way_m;
+        robot = i;
+        chosen = k;
+      }
+    if (robot == alive.size()) return;  // nobody is free
+    const Visit visit = visits[chosen];
+    visits.erase(visits.begin() + static_cast<std::ptrdiff_t>(chosen));
+    const double patience_s = scenario.visits.patience_s.value_or(
+        ways * best_m / scenario.robot.wheel_limit_m_s + ticks * scenario.tick_s);
+    send(robot, visit.place);
+    targets.back().visit = true;
+    courses.back().until = tick_after(patience_s);
+    courses.back().tried = visit.tried;
+  }
+}
+
 // ---- Moments of the mission ----
 
 void World::Impl::watch_for_moments(double now_s) {
@@ -44,7 +90,7 @@ void World::Impl::watch_for_moments(double now_s) {
 
 // From the target to the nearest living robot that serves it; to its first worker if none does.
 double World::Impl::remaining_m(std::size_t target) const noexcept {
-  const auto& [position, first, active] = targets[target];
+  const auto& [position, first, active, visit] = targets[target];
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < alive.size(); ++i)
     if (alive[i] != 0 && reports[i].role == Role::worker && reports[i].serves == static_cast<RobotId>(first))
@@ -68,6 +114,7 @@ bool World::Impl::half_way() const noexcept {
 // Whether every target is held and connected (tree_parts.hpp), as of the last step.
 bool World::Impl::complete() {
   bool any = false;
+  if (!visits.empty()) return false;
   for (std::size_t t = 0; t < targets.size(); ++t) {
     if (!targets[t].active) continue;
     any = true;
@@ -78,7 +125,7 @@ bool World::Impl::complete() {
 
 std::optional<std::size_t> World::Impl::holder(std::size_t target) const noexcept {
   if (target >= targets.size() || !targets[target].active) return std::nullopt;
-  const auto& [position, first, active] = targets[target];
+  const auto& [position, first, active, visit] = targets[target];
   std::optional<std::size_t> best;
   double best_m = 0.0;
   for (std::size_t i = 0; i < alive.size(); ++i) {
@@ -175,7 +222,7 @@ void World::Impl::kill(const Kill& event, EventQueue::Entry entry) {
 }
 
 bool World::Impl::among(Kill::Of of, std::size_t i) const noexcept {
-  if (alive[i] == 0) return false;
+  if (alive[i] == 0 || station_of(i) != nullptr) return false;
   switch (of) {
     case Kill::Of::robots: return true;
     case Kill::Of::connectors: return reports[i].role == Role::connector;
@@ -219,13 +266,17 @@ void World::Impl::assign_target(Vec2 position) {
     return std::pair(reports[i].role != Role::spare, squared_norm(poses.position[i] - position));
   };
   for (std::size_t i = 0; i < alive.size(); ++i) {
-    if (alive[i] == 0 || is_worker(i) || reports[i].role == Role::root || target_of[i] >= 0) continue;
+    if (alive[i] == 0 || is_worker(i) || reports[i].role == Role::root || target_of[i] >= 0 || station_of(i) != nullptr)
+      continue;
     if (best == alive.size() || key(i) < key(best)) best = i;
   }
-  if (best == alive.size()) return;  // no robot is left to send
-  target_of[best] = static_cast<std::int32_t>(targets.size());
-  targets.push_back({.position = position, .worker = best});
-  courses.push_back({.start_m = distance(poses.position[best], position)});
+  if (best < alive.size()) send(best, position);  // else no robot is left to send
+}
+
+void World::Impl::send(std::size_t i, Vec2 position) {
+  target_of[i] = static_cast<std::int32_t>(targets.size());
+  targets.push_back({.position = position, .worker = i});
+  courses.push_back({.start_m = distance(poses.position[i], position)});
 }
 
 // The robot that serves the target is told to stop.
@@ -279,6 +330,12 @@ void World::Impl::add_events(Digest& digest) const noexcept {
     digest.add(courses[t].start_m);
     digest.add(courses[t].goal);
     digest.add(courses[t].speed_m_s);
+  }
+  if (!scenario.visits.positions) return;
+  digest.add(visited);
+  for (const Visit& visit : visits) {
+    digest.add(visit.place);
+    digest.add(visit.tried);
   }
 }
 

@@ -14,6 +14,7 @@
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/placement.hpp"
 #include "banyan/world/schema.hpp"
+#include "banyan/world/stations.hpp"
 #include "fault_list.hpp"
 
 namespace banyan::world {
@@ -34,6 +35,7 @@ struct CheckValue {
   Names names;
   void operator()(std::monostate) const {}
   void operator()(bool) const {}
+  void operator()(const NamePairs& /*pairs*/) const {}
   void operator()(std::int64_t n) const {
     if (const auto text = whole_range_fault(n, range, unit)) list.fail(path, *text);
   }
@@ -119,6 +121,82 @@ constexpr const char* no_box2d =
     "use disks or linear";
 #endif
 
+constexpr std::size_t most_stations = 100;
+
+// The keys of one station, one by one and with each other.
+void check_station(FaultList& list, const std::string& path, const Station& station) {
+  check_keys(list, path, station_keys(), station);
+  if (!good_name(station.name))
+    list.fail(path + ".name", "is \"" + station.name + "\"; allowed: " + std::string(name_rule));
+  else if (station.name.find_first_not_of("0123456789") == std::string::npos)
+    list.fail(path + ".name", "is \"" + station.name + "\": numbers are targets; give it a letter");
+  if (station.course.empty()) {
+    const auto useless = [&](bool given, const char* key) {
+      if (given) list.fail(path + "." + key, "needs course_m: without way points the station stands");
+    };
+    useless(station.speed_m_s > 0.0, "speed_m_s");
+    useless(station.loop, "loop");
+    useless(!station.times.empty(), "times_s");
+    return;
+  }
+  if (station.times.empty()) {
+    if (!(station.speed_m_s > 0.0))
+      list.fail(path + ".speed_m_s", "a station with course_m needs speed_m_s above 0, or times_s");
+    return;
+  }
+  if (station.speed_m_s > 0.0 || station.pause_s > 0.0 || station.loop)
+    list.fail(path + ".times_s", "give times_s or speed_m_s, pause_s and loop, not both");
+  if (station.times.size() != station.course.size())
+    list.fail(path + ".times_s", "must have one entry per way point (" + std::to_string(station.course.size()) +
+                                     "), not " + std::to_string(station.times.size()));
+  for (std::size_t k = 0; k < station.times.size(); ++k)
+    if (!(station.times[k] > (k == 0 ? station.start_s : station.times[k - 1])))
+      list.fail(element(path + ".times_s", k), "must be later than the one before, and than start_s");
+}
+
+void check_station_values(FaultList& list, const Scenario& scenario) {
+  const std::vector<Station>& stations = scenario.stations;
+  if (stations.size() > most_stations)
+    return list.fail("stations", "are " + std::to_string(stations.size()) + "; at most " +
+                                     std::to_string(most_stations) + " are possible");
+  std::vector<std::string_view> names;
+  bool rooted = scenario.swarm.root.has_value();
+  for (std::size_t s = 0; s < stations.size(); ++s) {
+    const std::string path = element("stations", s);
+    check_station(list, path, stations[s]);
+    if (std::find(names.begin(), names.end(), stations[s].name) != names.end())
+      list.fail(path + ".name", "is \"" + stations[s].name + "\", as another station is called");
+    names.push_back(stations[s].name);
+    if (stations[s].root && rooted)
+      list.fail(path + ".root", "there is one first root: another station is it, or the robot swarm.root");
+    rooted = rooted || stations[s].root;
+  }
+}
+
+// Data flows between stations and targets.
+void check_connect(FaultList& list, const Scenario& scenario) {
+  std::vector<std::string_view> names;
+  for (const Station& station : scenario.stations) names.push_back(station.name);
+  const std::size_t targets = mission_targets(scenario).size();
+  const auto check = [&](const std::string& key, const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) return;
+    const bool number = !name.empty() && name.size() < 7 && name.find_first_not_of("0123456789") == std::string::npos;
+    if (number && std::stoul(name) < targets) return;
+    const std::string_view near = nearest_name(name, names);
+    list.fail(key, "there is no station \"" + name + "\"" +
+                       (near.empty() ? "" : "; did you mean \"" + std::string(near) + "\"?") + " (stations: " +
+                       (names.empty() ? "none" : alternatives(names)) + "; targets: " +
+                       (targets == 0 ? "none" : "\"0\" to \"" + std::to_string(targets - 1) + "\"") + ")");
+  };
+  for (std::size_t i = 0; i < scenario.mission.connect.size(); ++i) {
+    const auto& [a, b] = scenario.mission.connect[i];
+    const std::string key = element("mission.connect", i);
+    check(key, a);
+    check(key, b);
+    if (a == b) list.fail(key, "names \"" + a + "\" twice");
+  }
+}
+
 void check_values(FaultList& list, const Scenario& scenario) {
   check_keys(list, "", scenario_keys(), scenario);
   if (scenario.algorithms == nullptr)
@@ -128,7 +206,10 @@ void check_values(FaultList& list, const Scenario& scenario) {
       check_parameter(list, *scenario.algorithms, name, value);
   check_layout(list, scenario.swarm);
   if (const auto* listed = std::get_if<std::vector<Vec2>>(&scenario.targets))
-    list.check_length("targets.positions_m", listed->size(), most("targets.count"));
+    if (!listed->empty() || (scenario.stations.empty() && !scenario.visits.positions))
+      list.check_length("targets.positions_m", listed->size(), most("targets.count"));
+  if (scenario.visits.positions)
+    list.check_length("visits.positions_m", scenario.visits.positions->size(), most("targets.count"));
   if (scenario.battery.places.size() > 100)
     list.fail("battery.places_m",
               "has " + std::to_string(scenario.battery.places.size()) + " places; at most 100 are possible");
@@ -145,6 +226,7 @@ void check_values(FaultList& list, const Scenario& scenario) {
     if (wall != nullptr && wall->from == wall->to)
       list.fail(element("obstacles", i) + ".to_m", "must differ from the wall's other end");
   }
+  check_station_values(list, scenario);
   check_event_values(list, scenario.events);
 }
 
@@ -152,6 +234,12 @@ void check_values(FaultList& list, const Scenario& scenario) {
 
 // `missions`: how many targets are the mission's own; places to charge follow.
 std::string target_key(const Scenario& scenario, std::size_t missions, std::size_t i) {
+  const std::size_t charging = scenario.battery.on() ? scenario.battery.places.size() : 0;
+  if (i >= missions + charging) {
+    std::size_t left = i - missions - charging;
+    for (std::size_t s = 0; s < scenario.stations.size(); ++s)
+      if (!scenario.stations[s].root && left-- == 0) return element("stations", s) + ".position_m";
+  }
   if (i >= missions) return element("battery.places_m", i - missions);
   return std::holds_alternative<std::vector<Vec2>>(scenario.targets) ? element("targets.positions_m", i) : "targets";
 }
@@ -270,6 +358,7 @@ class Groups {
     --count_;
   }
   [[nodiscard]] std::size_t count() const noexcept { return count_; }
+  [[nodiscard]] bool together(std::size_t i, std::size_t j) noexcept { return find(i) == find(j); }
 
  private:
   [[nodiscard]] std::size_t find(std::size_t i) noexcept {
@@ -403,9 +492,9 @@ void check_placed(FaultList& list, const Scenario& scenario) {
     return list.fail("swarm.start.center_m", "there is no room for a robot at " + at(start.center) +
                                                  ": an obstacle is closer than robot.radius_m" +
                                                  (start.layout == Layout::random ? "" : " + swarm.start.jitter_m"));
-  if (p.size() < robot_count(scenario))
+  if (p.size() < free_robot_count(scenario))
     return list.fail("swarm.start", "only " + std::to_string(p.size()) + " of " +
-                                        std::to_string(robot_count(scenario)) +
+                                        std::to_string(free_robot_count(scenario)) +
                                         " robots fit between the obstacles around the start");
   for (const Vec2 q : p)
     if (const std::string text = far_text(scenario, q); !text.empty())
@@ -426,7 +515,7 @@ void check_placed(FaultList& list, const Scenario& scenario) {
 void check_laid_out(FaultList& list, const Scenario& scenario) {
   const Start& start = scenario.swarm.start;
   check_spacing(list, scenario);
-  const std::size_t robots = robot_count(scenario);
+  const std::size_t robots = free_robot_count(scenario);
   if (start.layout == Layout::bridge && start.bridge_robots + 2 > robots)
     list.fail("swarm.start.bridge_robots", "is " + std::to_string(start.bridge_robots) + " of " +
                                                std::to_string(robots) +
@@ -436,8 +525,56 @@ void check_laid_out(FaultList& list, const Scenario& scenario) {
   if (!list.failed() && !(compact && small && scenario.obstacles.empty())) check_placed(list, scenario);
 }
 
+// Where a station goes: within reach, and not through obstacles. Where it starts: in contact with the others.
+void check_stations_fit(FaultList& list, const Scenario& scenario) {
+  const double range = scenario.radio.range_m, radius = scenario.robot.radius_m;
+  for (std::size_t s = 0; s < scenario.stations.size(); ++s) {
+    const Station& station = scenario.stations[s];
+    const std::string path = element("stations", s);
+    const auto check = [&](const std::string& key, Vec2 p) {
+      if (const std::string text = far_text(scenario, p); !text.empty())
+        list.fail(key, station.name + " at " + at(p) + " is " + text);
+      if (clearance(scenario.obstacles, p) < radius)
+        list.fail(key, station.name + " at " + at(p) + " is nearer to an obstacle than robot.radius_m = " +
+                           short_text(radius) + " m");
+    };
+    check(path + ".position_m", station.position);
+    Vec2 from = station.position;
+    for (std::size_t k = 0; k < station.course.size() + (station.loop ? 1 : 0); ++k) {
+      const bool back = k == station.course.size();
+      const Vec2 to = back ? station.position : station.course[k];
+      const std::string key = back ? path + ".loop" : element(path + ".course_m", k);
+      if (!back) check(key, to);
+      for (std::size_t o = 0; o < scenario.obstacles.size(); ++o)
+        if (blocks(scenario.obstacles[o], from, to))
+          list.fail(key, "the way from " + at(from) + " to " + at(to) + " leads through obstacle " + std::to_string(o));
+      from = to;
+    }
+  }
+  if (list.failed() || scenario.stations.empty()) return;
+  std::vector<Vec2> points = place(scenario).position;
+  const std::size_t robots = points.size();
+  for (const Station& station : scenario.stations) points.push_back(station.position);
+  Groups groups(points.size());
+  each_pair(points, range, [&](std::size_t i, std::size_t j, double /*distance*/) {
+    const auto cuts = [&](const Obstacle& o) { return blocks(o, points[i], points[j]); };
+    const bool hidden = scenario.radio.line_of_sight &&
+                        std::any_of(scenario.obstacles.begin(), scenario.obstacles.end(), cuts);
+    if ((i < robots && j < robots) || !hidden) groups.join(i, j);
+    return true;
+  });
+  for (std::size_t s = 0; s < scenario.stations.size(); ++s)
+    if (!groups.together(0, robots + s))
+      list.fail(element("stations", s) + ".position_m",
+                scenario.stations[s].name + " at " + at(scenario.stations[s].position) +
+                    " is not in contact with the start: neither a robot nor a station that is lies within "
+                    "radio.range_m = " +
+                    short_text(range) + " m" + (scenario.radio.line_of_sight ? " and in sight" : ""),
+                {"radio.range_m"});
+}
+
 void check_swarm_fits(FaultList& list, const Scenario& scenario) {
-  const std::size_t robots = robot_count(scenario);
+  const std::size_t robots = free_robot_count(scenario);
   if (robots > most("swarm.robots")) {
     list.fail("swarm.redundancy", "asks for " + std::to_string(robots) + " robots; at most " +
                                       std::to_string(most("swarm.robots")) + " are possible");
@@ -452,18 +589,23 @@ void check_swarm_fits(FaultList& list, const Scenario& scenario) {
 
 void check_targets_fit(FaultList& list, const Scenario& scenario) {
   const std::vector<Vec2> targets = target_positions(scenario);
-  const std::size_t robots = robot_count(scenario);
+  const std::size_t robots = free_robot_count(scenario);
   const std::size_t missions = mission_targets(scenario).size();
   const std::vector<double> room = rooms(scenario.obstacles, targets, scenario.robot.radius_m);
   for (std::size_t i = 0; i < targets.size(); ++i)
     check_target_room(list, scenario, room[i], target_key(scenario, missions, i), "target " + std::to_string(i),
                       targets[i]);
+  const std::vector<Vec2> visits = scenario.visits.places();
+  const std::vector<double> around = rooms(scenario.obstacles, visits, scenario.robot.radius_m);
+  for (std::size_t i = 0; i < visits.size(); ++i)
+    check_target_room(list, scenario, around[i], element("visits.positions_m", i), "place " + std::to_string(i),
+                      visits[i]);
   if (!check_events_fit(list, scenario, targets.size(), robots)) return;
   const std::size_t needed = least_robots(targets, target_tolerance_m(scenario), scenario.radio.range_m);
-  if (needed > robots)
+  if (needed > robot_count(scenario))
     list.warn("targets", "out of reach: no connected network of fewer than " + std::to_string(needed) +
                              " robots spans the targets at radio.range_m = " + short_text(scenario.radio.range_m) +
-                             " m, and there are " + std::to_string(robots));
+                             " m, and there are " + std::to_string(robot_count(scenario)));
 }
 
 }  // namespace
@@ -506,6 +648,8 @@ std::vector<Fault> faults(const Scenario& scenario) {
   if (!list.failed()) check_platform(list, scenario);
   if (!list.failed()) {
     check_swarm_fits(list, scenario);
+    check_stations_fit(list, scenario);
+    check_connect(list, scenario);
     check_targets_fit(list, scenario);
   }
   return list.take();

@@ -57,6 +57,10 @@ Poses place(const Scenario& scenario) {
 Poses place_all(const Scenario& scenario) {
   constexpr double outside = 300.0, apart = 4.0;  // C; all that a scenario names lies within 200
   Poses poses = place(scenario);
+  for (const Station& station : scenario.stations) {
+    poses.position.push_back(station.position);
+    poses.heading.push_back({1.0, 0.0});
+  }
   const std::size_t first = poses.position.size(), places = place_count(scenario);
   for (std::size_t i = first; i < places; ++i) {
     const double along = outside + apart * static_cast<double>(i - first);
@@ -67,20 +71,26 @@ Poses place_all(const Scenario& scenario) {
 }
 
 Assignment assign(const Scenario& scenario, const Poses& poses, const std::vector<Vec2>& targets) {
-  const std::size_t n = std::min(poses.position.size(), robot_count(scenario));
+  const std::size_t n = std::min(poses.position.size(), free_robot_count(scenario));
   Assignment result;
   std::vector<std::uint8_t> taken(n, 0);
-  if (scenario.swarm.root) taken[*scenario.swarm.root] = 1;
-  for (const Vec2 target : targets) {
-    const std::size_t worker = nearest_robot(poses, taken, target);
+  std::optional<std::size_t> root = scenario.swarm.root;
+  std::vector<std::size_t> stations;  // that hold a place
+  for (std::size_t s = 0; s < scenario.stations.size(); ++s)
+    if (scenario.stations[s].root) root = n + s;
+    else stations.push_back(n + s);
+  if (root && *root < n) taken[*root] = 1;
+  for (std::size_t t = 0; t + stations.size() < targets.size(); ++t) {
+    const std::size_t worker = nearest_robot(poses, taken, targets[t]);
     taken[worker] = 1;
     result.worker.push_back(worker);
   }
-  if (scenario.swarm.root) {
-    result.root = *scenario.swarm.root;
+  const std::size_t others = n - result.worker.size();
+  result.worker.insert(result.worker.end(), stations.begin(), stations.end());
+  if (root) {
+    result.root = *root;
     return result;
   }
-  const std::size_t others = n - targets.size();
   auto draw = static_cast<std::size_t>(to_uniform(bits(scenario.seed, Purpose::root, 0)) * static_cast<double>(others));
   for (std::size_t i = 0; i < n; ++i) {
     if (taken[i]) continue;

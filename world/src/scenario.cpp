@@ -82,21 +82,26 @@ std::vector<Vec2> target_positions(const Scenario& scenario) {
   std::vector<Vec2> positions = mission_targets(scenario);
   if (scenario.battery.on())
     positions.insert(positions.end(), scenario.battery.places.begin(), scenario.battery.places.end());
+  for (const Station& station : scenario.stations)
+    if (!station.root) positions.push_back(station.position);
   return positions;
 }
 
 double redundancy_edge_m(const Scenario& scenario) noexcept { return 0.7704205 * scenario.radio.range_m; }
 
-std::size_t robot_count(const Scenario& scenario) {
+std::size_t free_robot_count(const Scenario& scenario) {
   const SwarmModel& swarm = scenario.swarm;
   if (swarm.start.layout == Layout::list) return swarm.start.positions.size();
   if (swarm.robots) return *swarm.robots;
   double length = 0.0;
   const std::vector<Vec2> targets = mission_targets(scenario);
   for (const Vec2 p : targets) length += distance(swarm.start.center, p);
+  for (const Station& station : scenario.stations) length += distance(swarm.start.center, station.position);
   const std::size_t places = scenario.battery.on() ? scenario.battery.places.size() : 0;
   return std::max(robots_for(swarm.redundancy * length / redundancy_edge_m(scenario)), targets.size() + places + 1);
 }
+
+std::size_t robot_count(const Scenario& scenario) { return free_robot_count(scenario) + scenario.stations.size(); }
 
 std::size_t place_count(const Scenario& scenario) {
   std::size_t places = robot_count(scenario) + scenario.swarm.room;
@@ -153,6 +158,9 @@ double time_limit_s(const Scenario& scenario) {
   double farthest = 0.0;
   for (const Vec2 p : target_positions(scenario))
     farthest = std::max(farthest, distance(scenario.swarm.start.center, p));
+  for (const Vec2 p : scenario.visits.places()) farthest = std::max(farthest, distance(scenario.swarm.start.center, p));
+  for (const Station& station : scenario.stations)
+    for (const Vec2 p : station.course) farthest = std::max(farthest, distance(scenario.swarm.start.center, p));
   return 10.0 * farthest / scenario.robot.wheel_limit_m_s;
 }
 

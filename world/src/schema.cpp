@@ -43,6 +43,7 @@ template <> struct Parts<Scenario> {
     else if constexpr (std::is_same_v<Part, RadioModel>) return &s.radio;
     else if constexpr (std::is_same_v<Part, Clocks>) return &s.clocks;
     else if constexpr (std::is_same_v<Part, Battery>) return &s.battery;
+    else if constexpr (std::is_same_v<Part, Visits>) return &s.visits;
     else return std::get_if<Part>(&s.targets);
   }
 };
@@ -125,6 +126,14 @@ constexpr Section section_list[] = {
     {"clocks", "When robots step: all together, or each by its own clock."},
     {"battery", "What robots run on, and where they are charged. Without it they never run down.", "model"},
     {"targets", "Where the workers have to go.", "layout"},
+    {"visits",
+     "Places at which a robot has to be once, beside the targets. As soon as one has been there, it is free again.",
+     "", false, true},
+    {"stations",
+     "Nodes of the network that are no robots of the swarm, such as a base or a vehicle: repeat `[[stations]]` as often "
+     "as needed. They speak the swarm's protocol, and go where their course says. They are robots, too: their numbers "
+     "come after those of the others.",
+     "", true, true},
     {"obstacles",
      "One obstacle each: repeat `[[obstacles]]` as often as needed. They block motion and, with "
      "`radio.line_of_sight`, the radio. Robots see them only within `robot.proximity_m`.",
@@ -160,6 +169,10 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"mission.link_redundancy", of<&Mission::link_redundancy>, "", {1.0, 3.0},
      "k: paths between any two targets that share no other robot, so that any k - 1 robots can die at once; above 1 "
      "only with an algorithm that has rules for it, as convoy has"},
+    {"mission.connect", of<&Mission::connect>, "", any_value,
+     "pairs of nodes between which data has to flow, such as [[\"base\", \"vehicle\"]]: names of stations, or numbers of "
+     "targets as text. The columns from connected_time_ratio on measure them",
+     {.otherwise = "all stations and targets with each other"}},
 
     {"swarm.robots", of<&SwarmModel::robots>, "", robots_of_swarm, "number of robots",
      {.otherwise = "from redundancy, or the length of start.positions_m"}},
@@ -295,6 +308,30 @@ constexpr Key<Scenario> scenario_rows[] = {
      "direction of the first target, counter-clockwise from the x axis"},
     {"targets.center_m", of<&RingTargets::center, &RandomTargets::center>, "m", anywhere,
      "centre of the circle or annulus"},
+
+    {"visits.positions_m", of<&Visits::positions>, "m", anywhere, "one [x, y] per place", {.otherwise = "none"}},
+    {"visits.at_once", of<&Visits::at_once>, "", some_robots,
+     "to so many places robots are on their way at the same time; a spare is sent to the nearest", {.otherwise = "1"}},
+    {"visits.patience_s", of<&Visits::patience_s>, "s", {0.0, long_time, true},
+     "if nobody is there by then, another place is tried first",
+     {.otherwise = "4 times a straight drive, and 100 ticks"}},
+};
+
+constexpr Key<Station> station_rows[] = {
+    {"stations.name", of<&Station::name>, "", any_value, "its name; letters, digits, '-', '_' and '.'",
+     {.required = true}},
+    {"stations.position_m", of<&Station::position>, "m", anywhere, "where it is at the start", {.required = true}},
+    {"stations.course_m", of<&Station::course>, "m", anywhere, "the way points to which it goes from there, in straight lines"},
+    {"stations.speed_m_s", of<&Station::speed_m_s>, "m/s", {0.0, 1000.0}, "its speed between them"},
+    {"stations.pause_s", of<&Station::pause_s>, "s", any_time, "how long it stands at each of them"},
+    {"stations.start_s", of<&Station::start_s>, "s", any_time, "when it leaves"},
+    {"stations.loop", of<&Station::loop>, "", any_value,
+     "from the last way point it goes back to where it began, and on"},
+    {"stations.times_s", of<&Station::times>, "s", any_time,
+     "when it is at each of the way points, instead of speed_m_s, pause_s and loop"},
+    {"stations.announce_s", of<&Station::announce_s>, "s", any_time,
+     "so long ahead it knows its course, and the swarm can prepare"},
+    {"stations.root", of<&Station::root>, "", any_value, "it is the first root of the tree, and stays it"},
 };
 
 constexpr Key<Obstacle> obstacle_rows[] = {
@@ -350,6 +387,7 @@ constexpr Key<Event> event_rows[] = {
 std::span<const Section> scenario_sections() noexcept { return section_list; }
 std::span<const Key<Obstacle>> obstacle_keys() noexcept { return obstacle_rows; }
 std::span<const Key<Event>> event_keys() noexcept { return event_rows; }
+std::span<const Key<Station>> station_keys() noexcept { return station_rows; }
 
 std::span<const Key<Scenario>> scenario_keys() noexcept { return scenario_rows; }
 

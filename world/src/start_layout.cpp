@@ -188,7 +188,7 @@ class Spaced {
 // the ring, where it has room and no obstacle is in between.
 std::vector<Vec2> grown(const Scenario& scenario, const Ground& ground, double least, double longest) {
   constexpr std::uint64_t attempts = 2000;
-  const std::size_t count = robot_count(scenario);
+  const std::size_t count = free_robot_count(scenario);
   const auto draw = [&](std::size_t robot, std::uint64_t k) {
     return to_uniform(bits(scenario.seed, Purpose::start, robot, k));
   };
@@ -215,8 +215,10 @@ std::vector<Vec2> grown(const Scenario& scenario, const Ground& ground, double l
 std::vector<Vec2> start_points(const Scenario& scenario) {
   const Start& start = scenario.swarm.start;
   const bool random = start.layout == Layout::random;
-  const Ground ground(scenario.obstacles, scenario.robot.radius_m + (random ? 0.0 : start_jitter_m(scenario)));
-  const std::size_t count = robot_count(scenario);
+  std::vector<Obstacle> taken = scenario.obstacles;
+  for (const Station& station : scenario.stations) taken.push_back(Disc{station.position, scenario.robot.radius_m});
+  const Ground ground(taken, scenario.robot.radius_m + (random ? 0.0 : start_jitter_m(scenario)));
+  const std::size_t count = free_robot_count(scenario);
   const double pitch = start_pitch_m(scenario);
   const double link = start.link_share * scenario.radio.range_m;
   if (random) return grown(scenario, ground, pitch, link);

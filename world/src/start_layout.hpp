@@ -8,7 +8,7 @@
 
 namespace banyan::world {
 
-// robot_count(scenario) points of every layout but a list, nearest to start.center first (a random
+// free_robot_count(scenario) points of every layout but a list, nearest to start.center first (a random
 // start: in the order in which it grew); fewer if obstacles leave no room for more.
 [[nodiscard]] std::vector<Vec2> start_points(const Scenario& scenario);
 

@@ -15,6 +15,7 @@
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/placement.hpp"
 #include "banyan/world/random.hpp"
+#include "banyan/world/stations.hpp"
 #include "banyan/world/threads.hpp"
 #include "world_impl.hpp"
 
@@ -84,7 +85,13 @@ World::Impl::Impl(const Scenario& s, const Algorithm& algorithm_)
   const std::size_t n = poses.position.size();
   const std::vector<Vec2> positions = target_positions(s);
   mission_target_count = mission_targets(s).size();
+  free_robots = free_robot_count(s);
   arrived = robot_count(s);
+  for (const Vec2 place : s.visits.places()) visits.push_back({place, 0});
+  for (const Station& station : s.stations) {
+    names.resize(free_robots);
+    names.push_back(station.name);
+  }
   const Assignment assignment = assign(s, poses, positions);
   alive.assign(n, 0);
   std::fill_n(alive.begin(), arrived, std::uint8_t{1});
@@ -141,6 +148,10 @@ World::Impl::Impl(const Impl& o)
       deaths(o.deaths),
       emptied(o.emptied),
       mission_target_count(o.mission_target_count),
+      free_robots(o.free_robots),
+      tracked(o.tracked),
+      visits(o.visits),
+      visited(o.visited),
       last_death(o.last_death),
       flights(o.flights),
       arriving(o.arriving),
@@ -166,14 +177,38 @@ void World::step(Executor& executor) {
 void World::Impl::act() {
   for (std::size_t i = 0; i < commands.size(); ++i)
     moving[i] = alive[i] != 0 && frozen_until[i] <= tick ? commands[i] : Velocity{};
+  for (std::size_t s = 0; s < scenario.stations.size(); ++s) moving[free_robots + s] = {};
   bodies->step(moving, radio.near(), tick, poses, odometry);
+  move_stations();
   if (batteries.on())
-    run_down(scenario.clocks.asynchronous ? scenario.tick_s / scenario.clocks.substeps : scenario.tick_s);
+    run_down(part_s());
 }
 
-// A robot without charge is dead where it stands.
+// They are where their course says, and measure how they have moved; they keep their heading. A dead one stays.
+void World::Impl::move_stations() {
+  if (scenario.stations.empty()) return;
+  const double now_s = static_cast<double>(moment + 1) * part_s();
+  std::size_t place = mission_target_count + (scenario.battery.on() ? scenario.battery.places.size() : 0);
+  for (std::size_t s = 0; s < scenario.stations.size(); ++s) {
+    const std::size_t i = free_robots + s;
+    Target* held = scenario.stations[s].root ? nullptr : &targets[place++];
+    if (alive[i] == 0) continue;
+    if (!tracked) {
+      const Vec2 from = station_at(scenario.stations[s], static_cast<double>(moment) * part_s());
+      poses.position[i] = station_at(scenario.stations[s], now_s);
+      const Vec2 moved = rotate_back(poses.heading[i], poses.position[i] - from);
+      odometry[i] = {static_cast<float>(moved.x), static_cast<float>(moved.y), 0.0F};
+      bodies->arrive(i);  // without what has pushed it
+    }
+    if (held != nullptr) held->position = poses.position[i];
+  }
+}
+
+// A robot without charge is dead where it stands. Stations have power of their own.
 void World::Impl::run_down(double seconds) {
-  if (batteries.pass(seconds, moving, poses.position, alive) == 0) return;
+  const std::size_t empty = batteries.pass(seconds, moving, poses.position, alive);
+  for (std::size_t s = 0; s < scenario.stations.size(); ++s) batteries.renew(free_robots + s);
+  if (empty == 0) return;
   for (std::size_t i = 0; i < alive.size(); ++i) {
     if (alive[i] == 0 || batteries.levels()[i] > 0.0) continue;
     die(i);
@@ -183,7 +218,7 @@ void World::Impl::run_down(double seconds) {
 
 // As its sensor measures it.
 std::optional<Charge> World::Impl::charge_of(std::size_t i) const noexcept {
-  if (!batteries.on()) return std::nullopt;
+  if (!batteries.on() || station_of(i) != nullptr) return std::nullopt;
   double level = batteries.levels()[i];
   if (const double noise = scenario.battery.noise; noise > 0.0)
     level = std::clamp(level + noise * to_normal(bits(scenario.seed, Purpose::charge_noise, i, moment)), 0.0, 1.0);
@@ -305,6 +340,14 @@ void World::Impl::sense(std::size_t i, const Odometry& moved, Proximity::Seen& s
         rotate_back(poses.heading[i], targets[static_cast<std::size_t>(target_of[i])].position - poses.position[i]);
     senses.orders.target = {static_cast<float>(d.x), static_cast<float>(d.y)};
   }
+  if (const Station* station = station_of(i)) {
+    senses.orders.station = true;
+    if (station->announce_s > 0.0 && senses.orders.target && !tracked) {
+      const double then_s = static_cast<double>(moment + 1) * part_s() + station->announce_s;
+      const Vec2 d = rotate_back(poses.heading[i], station_at(*station, then_s) - poses.position[i]);
+      senses.orders.target = {static_cast<float>(d.x), static_cast<float>(d.y)};
+    }
+  }
   senses.obstacles = std::span<const banyan::Vec2>(seen).first(proximity.sense(poses, i, seen));
 }
 
@@ -367,6 +410,7 @@ World::World(const Scenario& scenario, const Algorithm& algorithm)
 World::World(const Scenario& scenario, const Algorithm& algorithm, std::unique_ptr<Bodies> bodies)
     : World(scenario, algorithm) {
   impl_->bodies = std::move(bodies);
+  impl_->tracked = true;
 }
 World::World(const World& o) : impl_(std::make_unique<Impl>(*o.impl_)) {}
 World::World(World&&) noexcept = default;
@@ -422,6 +466,13 @@ void World::call(std::size_t robot, const std::string& name) {
 std::span<const Target> World::targets() const noexcept { return impl_->targets; }
 std::span<const Obstacle> World::obstacles() const noexcept { return impl_->obstacles; }
 bool World::line_of_sight() const noexcept { return impl_->line_of_sight; }
+const Station* World::station(std::size_t i) const noexcept { return impl_->station_of(i); }
+std::size_t World::visited() const noexcept { return impl_->visited; }
+std::vector<Vec2> World::waiting_visits() const {
+  std::vector<Vec2> places;
+  for (const Visit& visit : impl_->visits) places.push_back(visit.place);
+  return places;
+}
 std::optional<std::size_t> World::holder(std::size_t target) const noexcept { return impl_->holder(target); }
 std::size_t World::deaths() const noexcept { return impl_->deaths; }
 std::span<const double> World::charge() const noexcept { return impl_->batteries.levels(); }

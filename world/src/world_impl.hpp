@@ -32,8 +32,16 @@ struct Flight {
 // The motion of a target, and the distance that its worker had to it.
 struct TargetMotion {
   double start_m = 0.0;    // how far its worker was from it at the start
+  std::uint64_t until = 0;  // of a visit: the tick from which on another place is tried
+  int tried = 0;            // and how often it has been in vain
   Vec2 goal{};             // where it drives
   double speed_m_s = 0.0;  // 0: it stands
+};
+
+// A place that a robot has to reach once, and how often one has been sent there in vain.
+struct Visit {
+  Vec2 place{};
+  int tried = 0;
 };
 
 // Robots with clocks of their own (clocks.cpp).
@@ -59,6 +67,7 @@ struct World::Impl {
   // The phases of a tick, in order.
   void happen();  // events.cpp
   void act();
+  void move_stations();
   void run_down(double seconds);
   void broadcast(Executor& executor);
   void find_links(Executor& executor);
@@ -86,6 +95,7 @@ struct World::Impl {
 
   // Events (events.cpp)
   void drive_targets();
+  void send_to_visits();
   void watch_for_moments(double now_s);
   void apply(const EventQueue::Entry& entry);
   void kill(const Kill& event, EventQueue::Entry entry);
@@ -97,7 +107,11 @@ struct World::Impl {
   [[nodiscard]] std::uint64_t tick_after(double duration_s) const noexcept;
   void move_target(std::size_t target, Vec2 position, double speed_m_s);
   void assign_target(Vec2 position);
+  void send(std::size_t i, Vec2 position);
   void give_up(std::size_t target);
+  [[nodiscard]] const Station* station_of(std::size_t i) const noexcept {
+    return i >= free_robots && i - free_robots < scenario.stations.size() ? &scenario.stations[i - free_robots] : nullptr;
+  }
   void set_line_of_sight(bool on);
   void change_obstacles(const Action& action);
   [[nodiscard]] Scenario with(const Event& event) const;  // the scenario, and this happening now
@@ -107,6 +121,10 @@ struct World::Impl {
 
   void add_events(Digest& digest) const noexcept;  // what is hashed of all this
 
+  // Between two motions of the bodies.
+  [[nodiscard]] double part_s() const noexcept {
+    return scenario.clocks.asynchronous ? scenario.tick_s / scenario.clocks.substeps : scenario.tick_s;
+  }
   [[nodiscard]] std::optional<Charge> charge_of(std::size_t i) const noexcept;
   [[nodiscard]] bool is_worker(std::size_t i) const noexcept {
     return reports[i].serves != nobody && given_up[i] == nobody;
@@ -146,6 +164,10 @@ struct World::Impl {
   std::size_t deaths = 0;
   std::size_t emptied = 0;                  // of these, for want of charge
   std::size_t mission_target_count = 0;     // of the start; the charging places come after them
+  std::size_t free_robots = 0;              // of the start; the stations come after them
+  bool tracked = false;                     // somebody else moves the bodies, stations included
+  std::vector<Visit> visits;                // places to which nobody is sent at present
+  std::size_t visited = 0;                  // places at which somebody has been
   std::optional<std::uint64_t> last_death;  // tick
   std::vector<Flight> flights;              // ring of latency_ticks - 1
   Flight arriving;                          // taken out of the ring: heard this tick

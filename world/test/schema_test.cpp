@@ -33,6 +33,7 @@ template <class Owner> Value sample(const Key<Owner>& key, std::size_t k) {
     case Type::text: return "text " + std::to_string(k);
     case Type::point: return Vec2{x, -x};
     case Type::points: return std::vector<Vec2>{{x, 1.0}, {x, 2.0}};
+    case Type::pairs: return NamePairs{{"a", "b"}};
     case Type::numbers: return std::vector<double>{x, 2.0};
   }
   return {};

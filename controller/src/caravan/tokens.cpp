@@ -266,7 +266,9 @@ void follow_orders(Robot& robot, const Orders& orders) noexcept {
   const bool called_back = self.was_sent && (!orders.sent || orders.given_up == self.id);
   if (self.serves != nobody && ((called_back && self.serves == self.id) || self.serves == orders.given_up))
     self.serves = nobody;
-  if (orders.sent && (!self.was_sent || called_back)) self.serves = self.id;
+  const bool was_replaced = orders.station && self.was_sent && self.serves != self.id;
+  if (orders.sent && (!self.was_sent || called_back || was_replaced)) self.serves = self.id;
+  if (Token* t = was_replaced ? find(self, self.id) : nullptr; t != nullptr) announce(*t, self.id);
   self.was_sent = orders.sent;
   // Who was sent there first tells it even if nobody serves the target now: a spare would try again.
   for (const RobotId ended : {called_back ? self.id : nobody, orders.given_up})

@@ -62,6 +62,7 @@ void select_root(Robot& robot) noexcept {
   State& self = robot.self;
   if (!robot.is_root() || self.phase != Phase::select_root) return;
   if (!self.centroid_known) self.centroid = self.q;
+  if (robot.is_station) self.centroid = {};  // no robot is nearer to it
   self.centroid_known = true;
   if (self.new_root != nobody) {
     robot.add_elapsed(self.offer_ticks);

@@ -62,6 +62,7 @@ void begin_tick(Robot& robot, const Inputs<Heard>& inputs) noexcept {
     close_gap(table.messages, k, table.size() + 1);
 
   const Orders& orders = inputs.orders();
+  robot.is_station = orders.station;
   self.is_worker = orders.sent;
   self.target_known = orders.target.has_value() || (orders.sent && self.target_known);
   if (orders.target) self.target = *orders.target;

@@ -98,6 +98,7 @@ struct TreeRobot {
   int forget_ticks;                 // and one that matters to nobody: less where packets get lost many in a row
   bool is_tree_news = false;        // some of `news` is what KnownOfTree lacks
   bool carries_on = false;          // a connector that has lost the last robot below it, and stays one (healing)
+  bool is_station = false;          // somebody else moves it, and it keeps what it holds
 
   // The index (tree_index.hpp)
   std::uint8_t call_hops = nobody_calls;  // the smallest among living neighbours

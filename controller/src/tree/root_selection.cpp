@@ -65,10 +65,9 @@ void select_root(TreeRobot& robot, FunctionRef<bool(int)> may_inherit, bool leav
     return;
   }
   if (self.phase != Phase::select_root) return;
-  if (!self.centroid_known) {
-    self.centroid = self.q;
-    self.centroid_known = true;
-  }
+  if (!self.centroid_known) self.centroid = self.q;
+  if (robot.is_station) self.centroid = {};  // no robot is nearer to it
+  self.centroid_known = true;
   if (self.new_root != nobody) {
     robot.add_elapsed(self.offer_ticks);
     if (self.offer_ticks <= std::max(whole(robot.params.handover_rounds), robot.liveness_ticks())) return;

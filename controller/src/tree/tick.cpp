@@ -18,6 +18,7 @@ TreeState initial_tree_state(RobotId id, bool worker, bool root) noexcept { retu
 
 void follow_orders(TreeRobot& robot, const Orders& orders) noexcept {
   TreeState& self = robot.self;
+  robot.is_station = orders.station;
   self.is_worker = orders.sent;
   if (!orders.sent) self.target_known = false;
   if (orders.target) {

@@ -84,9 +84,9 @@ inline constexpr std::size_t deepest_nesting = 16;  // the scenario's tree needs
 using world::number_text;
 using world::widened;
 
-// Names become parts of paths: of scenarios, studies, tunings.
-inline constexpr std::string_view name_rule = "1 to 100 letters, digits, '-', '_' and '.', no '.' at the start";
-[[nodiscard]] bool good_name(std::string_view name);
+// Names become parts of paths: of scenarios, studies, tunings (world/names.hpp).
+using world::good_name;
+using world::name_rule;
 // The file's name without its ending, made good; `fallback` if nothing is left of it.
 [[nodiscard]] std::string name_from(const std::string& path, std::string_view fallback);
 

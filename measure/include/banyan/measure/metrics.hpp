@@ -6,6 +6,7 @@
 #include <span>
 #include <tuple>
 
+#include "banyan/measure/connectivity.hpp"
 #include "banyan/measure/course.hpp"
 #include "banyan/measure/deaths.hpp"
 #include "banyan/measure/edges.hpp"
@@ -24,7 +25,7 @@ namespace banyan::measure {
 
 // In the order of their columns, and in which they look: whoever reads what another has found comes after it.
 using Metrics = std::tuple<Course, HeldTargets, Oracle, TreeSize, Redundancy, Edges, NetworkParts, Roots, Tallies,
-                           Effort, Overlaps, Lasting, Deaths>;
+                           Effort, Overlaps, Lasting, Deaths, Connectivity>;
 
 template <class> struct RowOf;
 template <class... Metric> struct RowOf<std::tuple<Metric...>> : Metric::Row... {};

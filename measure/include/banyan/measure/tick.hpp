@@ -29,13 +29,16 @@ struct Tick {
   std::uint32_t disjoint_paths = 0;   // the least number between two of targets and root (redundancy.hpp); 0 for k = 1
   std::uint32_t active_targets = 0;   // not given up
   std::uint32_t targets_reached = 0;  // of these, held: a living worker that serves it is within tolerance
+  std::uint32_t visits = 0, visited = 0;  // places to be visited, and those where a robot has been
   double worst_target_distance_m = 0.0;  // of these, the largest distance to the nearest living worker that
                                          // serves it; if none does, to the body of the one first sent there
 
   double least_charge = -1.0, mean_charge = -1.0;  // of the living (lasting.hpp); -1: no batteries
 
-  [[nodiscard]] bool all_held() const noexcept { return active_targets > 0 && targets_reached == active_targets; }
-  // HeldTargets and connected.
+  [[nodiscard]] bool all_held() const noexcept {
+    return (active_targets > 0 || visits > 0) && targets_reached == active_targets && visited == visits;
+  }
+  // Held and visited, and connected.
   [[nodiscard]] bool complete() const noexcept { return all_held() && tree_parts == 1; }
   // Of the active targets, the share that is held; 1 without any.
   [[nodiscard]] double held_share() const noexcept {

@@ -22,11 +22,12 @@
 namespace banyan::world {
 
 using Names = std::span<const std::string_view>;
+using NamePairs = std::vector<std::pair<std::string, std::string>>;
 
 // The value of a key as users write it: names as text, angles in degrees. The first: there is none.
 using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string, BasicVec2<double>,
-                           std::vector<BasicVec2<double>>, std::vector<double>>;
-enum class Type : std::uint8_t { truth, whole, number, name, text, point, points, numbers };
+                           std::vector<BasicVec2<double>>, std::vector<double>, NamePairs>;
+enum class Type : std::uint8_t { truth, whole, number, name, text, point, points, numbers, pairs };
 
 struct Range {
   double minimum = -std::numeric_limits<double>::infinity();
@@ -155,6 +156,10 @@ struct Conversion<std::vector<BasicVec2<double>>> : PlainConversion<std::vector<
 template <> struct Conversion<std::vector<double>> : PlainConversion<std::vector<double>, Type::numbers> {
   static constexpr bool optional = true;  // an empty list is none
   static Value get(const std::vector<double>& member) { return member.empty() ? Value() : Value(member); }
+};
+template <> struct Conversion<NamePairs> : PlainConversion<NamePairs, Type::pairs> {
+  static constexpr bool optional = true;  // an empty list is none
+  static Value get(const NamePairs& member) { return member.empty() ? Value() : Value(member); }
 };
 template <class T>
 requires std::is_integral_v<T>

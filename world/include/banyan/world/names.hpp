@@ -13,6 +13,16 @@
 
 namespace banyan::world {
 
+// Names that users give, which may become parts of paths.
+inline constexpr std::string_view name_rule = "1 to 100 letters, digits, '-', '_' and '.', no '.' at the start";
+[[nodiscard]] inline bool good_name(std::string_view name) {
+  const auto good = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
+           c == '.';
+  };
+  return !name.empty() && name.size() <= 100 && name.front() != '.' && std::all_of(name.begin(), name.end(), good);
+}
+
 // Optimal string alignment distance: letters added, left out or replaced, or two neighbours exchanged.
 [[nodiscard]] inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);

@@ -9,7 +9,7 @@
 
 namespace banyan::world {
 
-// The `robot_count(scenario)` points of the layout, free of obstacles, jittered. A lattice grows over free
+// The `free_robot_count(scenario)` points of the layout, free of obstacles, jittered. A lattice grows over free
 // neighbours (so no robot starts behind a wall), in O(N (log N + obstacles)). Robots never overlap and are
 // connected as long as faults() finds nothing. Index order: by distance from the centre; a random start: in the
 // order in which it grew. Fewer poses than robots when obstacles leave no room: faults() tells.

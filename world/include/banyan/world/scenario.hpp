@@ -28,6 +28,8 @@ struct Mission {
   bool stop_when_complete = true;
   double settle_s = 0.0;            // with stop_when_complete: how long to go on after completion
   std::size_t link_redundancy = 1;  // k: paths between any two targets that share no other robot
+  // Which nodes data has to flow between: names of stations, or numbers of targets. Empty: between all of them.
+  std::vector<std::pair<std::string, std::string>> connect;
   std::vector<std::pair<std::string, double>> parameters;  // overrides, by their keys
 };
 
@@ -114,6 +116,32 @@ struct Battery {
   double charge_w = 25.0;           // into each of them
 
   [[nodiscard]] bool on() const noexcept { return model != Model::none; }
+};
+
+// A node of the network that is no robot of the swarm: a base, a vehicle, a person. It speaks the algorithm's protocol and
+// goes where its course says, whatever the algorithm wants. Its place is held like a target, by itself.
+struct Station {
+  std::string name;
+  Vec2 position{};            // at the start
+  std::vector<Vec2> course;   // way points after that; none: it stands
+  double speed_m_s = 0.0;     // between them
+  double pause_s = 0.0;       // at each of them
+  double start_s = 0.0;       // it leaves then
+  bool loop = false;          // from the last way point it goes on to the first place, and so on
+  std::vector<double> times;  // s, instead of the four above: when it is at each way point
+  double announce_s = 0.0;    // so long ahead it tells the swarm where it will be
+  bool root = false;          // it is the tree's first root, and stays that
+  friend bool operator==(const Station&, const Station&) = default;
+};
+
+// Places at which a robot has to be once: as soon as one is there, it is free again. Spares are sent, to one place at a
+// time or so many.
+struct Visits {
+  std::optional<std::vector<Vec2>> positions{};
+  std::optional<std::size_t> at_once{};
+  std::optional<double> patience_s{};  // then another place is tried first
+  [[nodiscard]] std::vector<Vec2> places() const { return positions.value_or(std::vector<Vec2>{}); }
+  friend bool operator==(const Visits&, const Visits&) = default;
 };
 
 // The alternatives of a variant carry the name by which a file chooses them.
@@ -253,6 +281,8 @@ struct Scenario {
   Clocks clocks;
   Battery battery;
   Targets targets = RingTargets{};
+  Visits visits;
+  std::vector<Station> stations;
   std::vector<Obstacle> obstacles;
   std::vector<Event> events;  // any order; equal times act in file order
 };
@@ -263,16 +293,18 @@ struct Scenario {
 // The functions below need a scenario without faults (faults.hpp; warnings do not matter).
 
 // The target positions that `scenario` and its seed stand for, random ones clear of obstacles, and after them the
-// charging places, which are held like targets.
+// charging places and the places of the stations, which are held like targets. A station that is the root has none.
 [[nodiscard]] std::vector<Vec2> target_positions(const Scenario& scenario);
-// Without the charging places.
+// Without the charging places and the stations.
 [[nodiscard]] std::vector<Vec2> mission_targets(const Scenario& scenario);
 
 // The edge by which swarm.redundancy counts: 0.7704205 C, which is delta of inwards (protocol 2, row 10).
 [[nodiscard]] double redundancy_edge_m(const Scenario& scenario) noexcept;
 
-// Number of robots at the start: swarm.robots, or the paper's redundancy factor (protocol 2, row 10) of the mission's
-// targets. At least one more than targets and charging places.
+// Number of robots at the start that go where the algorithm wants: swarm.robots, or the paper's redundancy factor
+// (protocol 2, row 10) of the mission's targets and stations. At least one more than targets and charging places.
+[[nodiscard]] std::size_t free_robot_count(const Scenario& scenario);
+// The same with the stations, whose indices come after those of the others.
 [[nodiscard]] std::size_t robot_count(const Scenario& scenario);
 // With those that join later, and swarm.room.
 [[nodiscard]] std::size_t place_count(const Scenario& scenario);

@@ -20,16 +20,19 @@ struct Section {
   std::string_view meaning;
   std::string_view selector = "";  // name of the key that decides which of the others apply
   bool repeated = false;           // a list of tables, one for each
+  bool left_out = false;           // where it is empty: stored runs are known by what was written without it
 };
 
 [[nodiscard]] std::span<const Section> scenario_sections() noexcept;  // in the order of a file
 [[nodiscard]] std::span<const Key<Scenario>> scenario_keys() noexcept;
 [[nodiscard]] std::span<const Key<Obstacle>> obstacle_keys() noexcept;  // "obstacles.kind", ...
 [[nodiscard]] std::span<const Key<Event>> event_keys() noexcept;        // "events.kind", ...
+[[nodiscard]] std::span<const Key<Station>> station_keys() noexcept;    // "stations.name", ...
 
-// visit("obstacles", obstacle_keys(), scenario.obstacles), and the same for events.
+// visit("obstacles", obstacle_keys(), scenario.obstacles), and the same for stations and events.
 template <class AnyScenario, class Visit> void each_list(AnyScenario& scenario, const Visit& visit) {
   visit(std::string_view("obstacles"), obstacle_keys(), scenario.obstacles);
+  visit(std::string_view("stations"), station_keys(), scenario.stations);
   visit(std::string_view("events"), event_keys(), scenario.events);
 }
 

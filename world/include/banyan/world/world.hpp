@@ -24,6 +24,7 @@ struct Target {
   Vec2 position{};
   std::size_t worker = 0;  // index of the robot first sent there; its id is what `serves` names
   bool active = true;      // false once it has been given up (RemoveTarget)
+  bool visit = false;      // given up as soon as a robot has been there
 };
 
 class World {
@@ -76,6 +77,11 @@ class World {
   [[nodiscard]] std::span<const Report> reports() const noexcept;
   [[nodiscard]] std::span<const std::uint8_t> alive() const noexcept;  // 0: dead (its body stays), or not yet there
   [[nodiscard]] std::span<const Target> targets() const noexcept;
+  // The station that robot i is; null if it is none. Stations never move as the algorithm wants.
+  [[nodiscard]] const Station* station(std::size_t i) const noexcept;
+  // Of scenario().visits: places at which a robot has been, and those to which nobody is sent at present.
+  [[nodiscard]] std::size_t visited() const noexcept;
+  [[nodiscard]] std::vector<Vec2> waiting_visits() const;
   // As they are now; scenario() has them as they were at the start.
   [[nodiscard]] std::span<const Obstacle> obstacles() const noexcept;
   [[nodiscard]] bool line_of_sight() const noexcept;

@@ -23,6 +23,7 @@ struct Robot {
   State& self;
   std::span<const Vec2> obstacles;  // nearest point of each within the proximity sensor's reach, own frame, C
   int elapsed_ticks;                // since the last step
+  bool is_station = false;          // somebody else moves it, and it keeps what it holds
   Serial epoch = 0;                 // when the step began: select_root() may open the next
   int parent = -1, old_parent = -1;
   int hold = -1;    // without a parent: the neighbour that I stay with (row t)
