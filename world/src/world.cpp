@@ -342,7 +342,8 @@ void World::Impl::sense(std::size_t i, const Odometry& moved, Proximity::Seen& s
   }
   if (const Station* station = station_of(i)) {
     senses.orders.station = true;
-    if (station->announce_s > 0.0 && senses.orders.target && !tracked) {
+    senses.orders.target.reset();
+    if (station->announce_s > 0.0 && senses.orders.sent && !tracked) {
       const double then_s = static_cast<double>(moment + 1) * part_s() + station->announce_s;
       const Vec2 d = rotate_back(poses.heading[i], station_at(*station, then_s) - poses.position[i]);
       senses.orders.target = {static_cast<float>(d.x), static_cast<float>(d.y)};

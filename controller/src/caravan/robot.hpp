@@ -19,6 +19,7 @@ struct Robot {
   int elapsed_rounds;
   Carry carry;
   std::span<Heard> heard;
+  bool is_station = false;  // somebody else moves it, and it keeps what it holds
   int parent = -1;  // their entries in the table
   int other = -1;
   Rows children{};  // robots of the tree that name me as their parent

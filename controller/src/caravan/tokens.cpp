@@ -110,7 +110,7 @@ void locate(const Robot& robot, Token& t, const TokenNews& news, Vec2 place) noe
 void settle_rivalry(Robot& robot, Token& t, const TokenNews& news) noexcept {
   State& self = robot.self;
   if (news.holder == self.id || news.holder == nobody || ahead_by(news.beat, t.beat) < -rival_beats) return;
-  if (has_precedence(news.holder, news.reached, self.id, t.reached, news.name)) {
+  if (!robot.is_station && has_precedence(news.holder, news.reached, self.id, t.reached, news.name)) {
     self.serves = nobody;
     take_news(self, t, news);
     t.urgent = urgent_rounds;
@@ -266,9 +266,7 @@ void follow_orders(Robot& robot, const Orders& orders) noexcept {
   const bool called_back = self.was_sent && (!orders.sent || orders.given_up == self.id);
   if (self.serves != nobody && ((called_back && self.serves == self.id) || self.serves == orders.given_up))
     self.serves = nobody;
-  const bool was_replaced = orders.station && self.was_sent && self.serves != self.id;
-  if (orders.sent && (!self.was_sent || called_back || was_replaced)) self.serves = self.id;
-  if (Token* t = was_replaced ? find(self, self.id) : nullptr; t != nullptr) announce(*t, self.id);
+  if (orders.sent && (!self.was_sent || called_back)) self.serves = self.id;
   self.was_sent = orders.sent;
   // Who was sent there first tells it even if nobody serves the target now: a spare would try again.
   for (const RobotId ended : {called_back ? self.id : nobody, orders.given_up})
@@ -305,7 +303,7 @@ void watch_progress(Robot& robot, Vec2 v) noexcept {
   State& self = robot.self;
   const Params& p = robot.params;
   Token* const t = self.serves == nobody ? nullptr : find(self, self.serves);
-  if (t == nullptr || !t->located || t->reached) {
+  if (t == nullptr || !t->located || t->reached || robot.is_station) {
     self.nearest = not_counted, self.effort = 0.0F, self.stuck_rounds = 0;
     return;
   }

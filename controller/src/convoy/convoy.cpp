@@ -103,6 +103,12 @@ bool asks_for_relief(const ConvoyRobot& robot) noexcept {
   return robot.power != nullptr && (wants_relief(*robot.power) || is_stuck(*robot.power));
 }
 
+// A station goes on while the spare comes.
+float asks_from(const ConvoyRobot& robot) noexcept {
+  constexpr float ahead = 0.55F;  // C
+  return robot.is_station ? ahead : robot.params.recruitment_distance;
+}
+
 // The need is not passed up the tree: a chain that is towed brings its slack to where the spares are by itself.
 bool needs_spare(const ConvoyRobot& robot) noexcept {
   if (robot.parent < 0) return false;
@@ -112,7 +118,7 @@ bool needs_spare(const ConvoyRobot& robot) noexcept {
   // A connector may have been made a worker: then it is the parent that has to go on.
   const TreeStanding& parent = robot.table().message(robot.parent);
   const bool wanted = robot.self.want > 0.0F || is_held_back(robot) || (parent.role == Role::worker && parent.want > 0);
-  return (d > robot.params.recruitment_distance - asks_sooner * robot.table().spread() && wanted) ||
+  return (d > asks_from(robot) - asks_sooner * robot.table().spread() && wanted) ||
          ((hidden || robot.self.corners.pinned || is_anchored(robot)) && d > robot.params.shortest_split);
 }
 
@@ -121,7 +127,9 @@ bool may_call(const ConvoyRobot& robot) noexcept {
   if (asks_for_relief(robot)) return true;
   if (is_planned(robot.self)) return false;  // spares would come along the chains and be in the way
   const ConvoyParams& p = robot.params;
-  const float from = robot.self.corners.landmarks.size > 0 ? p.recruitment_distance : p.call_distance;
+  // A station does not wait for a spare.
+  const bool early = robot.self.corners.landmarks.size > 0 || robot.is_station;
+  const float from = early ? asks_from(robot) : p.call_distance;
   if (robot.parent < 0) return false;
   if (wants_fold(robot) && robot.table().age(robot.parent) <= silence_ticks) return false;  // keep_company() does
   return robot.self.corners.pinned || is_anchored(robot) || is_held_by_junction(robot) ||

@@ -327,7 +327,7 @@ void take_part_in_plan(ConvoyRobot& robot) noexcept {
     Task& task = self.tasks[k];
     if (is_put_off(task)) self.hosts[k] = nobody;  // before it is tried again all have heard
     if (self.hosts[k] != task.serves) planned = planned || self.hosts[k] != nobody;
-    else if (self.is_worker && self.serves == task.serves) resign(robot), put_off(robot, task);
+    else if (self.is_worker && self.serves == task.serves && !robot.is_station) resign(robot), put_off(robot, task);
   }
   robot.add_elapsed(self.plan_ticks);
   if (!planned) self.plan_ticks = 0;

@@ -34,7 +34,18 @@ Gate::Gate(const Senses& senses, const Platform& platform) noexcept
     elapsed_ = rounds;
     elapsed_ticks_ = std::max(1, static_cast<int>(rounds + 0.5F));
   }
+  if (orders_.station && orders_.sent && !orders_.target) orders_.target = way_of_station(platform);
   if (!senses.obstacles.empty()) admit_obstacles(senses.obstacles);
+}
+
+// A station that moves goes on like that, as far as anybody can tell: the others are to follow. One that stands is where
+// it has to be.
+Vec2 Gate::way_of_station(const Platform& platform) const noexcept {
+  constexpr float ahead = 0.5F;  // C
+  constexpr float least = 0.01F;  // of full speed: less is what a tracker trembles
+  const float full = platform.wheel_limit_m_s * platform.tick_s * per_metre_ * elapsed_;
+  if (norm(moved_) < least * full) return {};
+  return rotate_back(unit_vector(turn_rad_), unit(moved_)) * ahead;
 }
 
 // Of more than there is room for the first are kept; the others are not rejected, since a good sensor may well see so

@@ -31,7 +31,7 @@ void give_up(HealingRobot& robot) noexcept {
 void watch_progress(HealingRobot& robot, bool retreats, Vec2 v) noexcept {
   HealingState& self = robot.self;
   const HealingParams& p = robot.params;
-  const float left = robot.target != nullptr && self.is_worker ? norm(*robot.target) : 0.0F;
+  const float left = robot.target != nullptr && self.is_worker && !robot.is_station ? norm(*robot.target) : 0.0F;
   if (!p.heals() || left <= p.arrival_distance) {
     self.progress = {};
     return;

@@ -61,7 +61,9 @@ bool has_precedence(Claim a, Claim b, RobotId serves) noexcept {
 // that lives will hear my count.
 void settle_rivalry(HealingRobot& robot, Task& task, const TaskNews& news) noexcept {
   if (news.holder == nobody || ahead_by(news.beat, task.beat) < -rival_beats) return;
-  if (has_precedence({news.holder, news.reached}, {robot.self.id, task.reached}, task.serves)) {
+  const bool yields =
+      !robot.is_station && has_precedence({news.holder, news.reached}, {robot.self.id, task.reached}, task.serves);
+  if (yields) {
     resign(robot);
     task.holder = news.holder;
     task.reached = news.reached;

@@ -32,12 +32,10 @@ void follow_orders(HealingRobot& robot, const Orders& orders) noexcept {
     self.serves = nobody;
   }
   robot.is_station = orders.station;
-  const bool was_replaced = orders.station && self.was_sent && self.serves != self.id;
-  if (orders.sent && (!self.was_sent || called_back || was_replaced)) {
+  if (orders.sent && (!self.was_sent || called_back)) {
     self.is_worker = true;
     self.serves = self.id;
   }
-  if (Task* task = was_replaced ? find_task(self, self.id) : nullptr; task != nullptr) announce(*task, self.id);
   self.was_sent = orders.sent;
   for (const RobotId ended : {called_back ? self.id : nobody, orders.given_up}) {  // no longer given up in vain
     Task* task = ended == nobody ? nullptr : find_task(self, ended);

@@ -66,6 +66,7 @@ class Gate {
  private:
   // False for NaN and infinity too.
   static bool is_within(Vec2 v, float limit) noexcept { return squared_norm(v) <= limit * limit; }
+  [[nodiscard]] Vec2 way_of_station(const Platform& platform) const noexcept;
   void admit_obstacles(std::span<const Vec2> obstacles) noexcept;
   // A position measured so many rounds ago, in the frame of then, as it is now in the present frame.
   [[nodiscard]] Vec2 carried_to_now(Vec2 position, float rounds) const noexcept;

@@ -35,8 +35,8 @@ struct Orders {
   RobotId given_up = nobody;
   // The target that it is sent to is a charging place: the robot there keeps the place in the network.
   bool charging_place = false;
-  // It is a station: somebody else moves it. It keeps its target, where it stands, or the root's token if it began with
-  // that, and hands neither on.
+  // It is a station: somebody else moves it. It keeps its target, or the root's token if it began with that, and hands
+  // neither on. `target` is where it will be before long; none: behind the gate it follows from how it moves.
   bool station = false;
 };
 
