@@ -12,9 +12,9 @@ namespace {
 using world::Type;
 
 std::string_view type_name(Type type) {
-  constexpr std::array<std::string_view, 9> names = {"true or false", "whole number",  "number",         "name", "text",
-                                                     "[x, y]",        "[[x, y], ...]", "list of numbers",
-                                                     "[[\"a\", \"b\"], ...]"};
+  constexpr std::array<std::string_view, 9> names = {
+      "true or false",   "whole number",         "number", "name", "text", "[x, y]", "[[x, y], ...]",
+      "list of numbers", "[[\"a\", \"b\"], ...]"};
   return names.at(static_cast<std::size_t>(type));
 }
 

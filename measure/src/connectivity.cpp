@@ -31,12 +31,10 @@ constexpr Column<Connectivity::Row> connectivity_table[] = {
     {"least_connected", "that pair", 0, if_measured<&Connectivity::Row::least_connected>},
     {"disconnections", "how often an asked pair was cut off when all had been connected, or at the start", 0,
      if_measured<&Connectivity::Row::disconnections>, "disconnections"},
-    quantity<&Connectivity::Row::longest_disconnection_s>("longest_disconnection_s",
-                                                          "the longest time in which some pair was cut off",
-                                                          "longest disconnection (s)"),
-    quantity<&Connectivity::Row::first_disconnection_s>("first_disconnection_s",
-                                                        "when a pair was cut off first; empty if never",
-                                                        "first disconnection (s)"),
+    quantity<&Connectivity::Row::longest_disconnection_s>(
+        "longest_disconnection_s", "the longest time in which some pair was cut off", "longest disconnection (s)"),
+    quantity<&Connectivity::Row::first_disconnection_s>(
+        "first_disconnection_s", "when a pair was cut off first; empty if never", "first disconnection (s)"),
     quantity<&Connectivity::Row::last_disconnection_s>("last_disconnection_s",
                                                        "when a pair was cut off last; empty if never"),
     quantity<&Connectivity::Row::hops>("hops", "of the path of fewest hops between a pair that is connected, mean",
@@ -67,9 +65,8 @@ Connectivity::Connectivity(const world::World& start, Row& /*row*/) : tick_s_(st
   for (const auto& [a, b] : asked) pairs_.push_back({std::min(find(a), find(b)), std::max(find(a), find(b))});
   for (std::size_t a = 0; asked.empty() && a < nodes_.size(); ++a)
     for (std::size_t b = a + 1; b < nodes_.size(); ++b) pairs_.push_back({a, b});
-  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& p, const Pair& q) {
-    return p.a != q.a ? p.a < q.a : p.b < q.b;
-  });
+  std::sort(pairs_.begin(), pairs_.end(),
+            [](const Pair& p, const Pair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
 }
 
 // The robot that is this node now; none where nobody holds the target, or the station is dead.
@@ -88,8 +85,7 @@ void Connectivity::search(const world::World& world, std::size_t from) {
     const std::uint32_t i = queue_[next];
     for (const std::uint32_t j : world.links(i)) {
       if (hops_to_[j] <= hops_to_[i] || world.is_deaf(i, j) || world.is_deaf(j, i)) continue;
-      const double longest2 =
-          std::max(longest2_to_[i], squared_norm(world.positions()[i] - world.positions()[j]));
+      const double longest2 = std::max(longest2_to_[i], squared_norm(world.positions()[i] - world.positions()[j]));
       if (hops_to_[j] == unreached) {
         hops_to_[j] = hops_to_[i] + 1;
         longest2_to_[j] = longest2;
@@ -136,8 +132,8 @@ void Connectivity::observe(const Moment& now, Row& row) {
 void Connectivity::sum_up(const Moment& /*end*/, Row& row) const {
   if (ticks_ == 0) return;
   const auto ticks = static_cast<double>(ticks_);
-  const auto least = std::min_element(pairs_.begin(), pairs_.end(),
-                                      [](const Pair& p, const Pair& q) { return p.ticks < q.ticks; });
+  const auto least =
+      std::min_element(pairs_.begin(), pairs_.end(), [](const Pair& p, const Pair& q) { return p.ticks < q.ticks; });
   row.connected_time_ratio = static_cast<double>(connected_) / ticks;
   row.least_connected_time_ratio = static_cast<double>(least->ticks) / ticks;
   row.least_connected = nodes_[least->a].name + " " + nodes_[least->b].name;

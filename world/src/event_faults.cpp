@@ -100,8 +100,8 @@ class CheckEventFits {
       list_.fail(key_ + ".target", "there is no target " + std::to_string(i) + " at that time; the last one is " +
                                        std::to_string(before_.targets - 1));
     const std::size_t all = target_positions(scenario_).size();
-    const auto stations = static_cast<std::size_t>(std::count_if(
-        scenario_.stations.begin(), scenario_.stations.end(), [](const Station& station) { return !station.root; }));
+    const auto stations = static_cast<std::size_t>(std::count_if(scenario_.stations.begin(), scenario_.stations.end(),
+                                                                 [](const Station& station) { return !station.root; }));
     if (i < all && i + stations >= all)
       list_.fail(key_ + ".target", "target " + std::to_string(i) + " is where a station is, and goes with it");
   }

@@ -72,8 +72,8 @@ void World::Impl::send_to_visits() {
     if (robot == alive.size()) return;  // nobody is free
     const Visit visit = visits[chosen];
     visits.erase(visits.begin() + static_cast<std::ptrdiff_t>(chosen));
-    const double patience_s = scenario.visits.patience_s.value_or(
-        ways * best_m / scenario.robot.wheel_limit_m_s + ticks * scenario.tick_s);
+    const double patience_s =
+        scenario.visits.patience_s.value_or(ways * best_m / scenario.robot.wheel_limit_m_s + ticks * scenario.tick_s);
     send(robot, visit.place);
     targets.back().visit = true;
     courses.back().until = tick_after(patience_s);

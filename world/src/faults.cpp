@@ -184,8 +184,8 @@ void check_connect(FaultList& list, const Scenario& scenario) {
     if (number && std::stoul(name) < targets) return;
     const std::string_view near = nearest_name(name, names);
     list.fail(key, "there is no station \"" + name + "\"" +
-                       (near.empty() ? "" : "; did you mean \"" + std::string(near) + "\"?") + " (stations: " +
-                       (names.empty() ? "none" : alternatives(names)) + "; targets: " +
+                       (near.empty() ? "" : "; did you mean \"" + std::string(near) + "\"?") +
+                       " (stations: " + (names.empty() ? "none" : alternatives(names)) + "; targets: " +
                        (targets == 0 ? "none" : "\"0\" to \"" + std::to_string(targets - 1) + "\"") + ")");
   };
   for (std::size_t i = 0; i < scenario.mission.connect.size(); ++i) {
@@ -234,7 +234,7 @@ void check_values(FaultList& list, const Scenario& scenario) {
 
 // `missions`: how many targets are the mission's own; places to charge follow.
 std::string target_key(const Scenario& scenario, std::size_t missions, std::size_t i) {
-  const std::size_t charging = scenario.battery.on() ? scenario.battery.places.size() : 0;
+  const std::size_t charging = held_charging_places(scenario).size();
   if (i >= missions + charging) {
     std::size_t left = i - missions - charging;
     for (std::size_t s = 0; s < scenario.stations.size(); ++s)
@@ -535,8 +535,8 @@ void check_stations_fit(FaultList& list, const Scenario& scenario) {
       if (const std::string text = far_text(scenario, p); !text.empty())
         list.fail(key, station.name + " at " + at(p) + " is " + text);
       if (clearance(scenario.obstacles, p) < radius)
-        list.fail(key, station.name + " at " + at(p) + " is nearer to an obstacle than robot.radius_m = " +
-                           short_text(radius) + " m");
+        list.fail(key, station.name + " at " + at(p) +
+                           " is nearer to an obstacle than robot.radius_m = " + short_text(radius) + " m");
     };
     check(path + ".position_m", station.position);
     Vec2 from = station.position;
@@ -558,8 +558,8 @@ void check_stations_fit(FaultList& list, const Scenario& scenario) {
   Groups groups(points.size());
   each_pair(points, range, [&](std::size_t i, std::size_t j, double /*distance*/) {
     const auto cuts = [&](const Obstacle& o) { return blocks(o, points[i], points[j]); };
-    const bool hidden = scenario.radio.line_of_sight &&
-                        std::any_of(scenario.obstacles.begin(), scenario.obstacles.end(), cuts);
+    const bool hidden =
+        scenario.radio.line_of_sight && std::any_of(scenario.obstacles.begin(), scenario.obstacles.end(), cuts);
     if ((i < robots && j < robots) || !hidden) groups.join(i, j);
     return true;
   });

@@ -80,11 +80,27 @@ std::vector<Vec2> mission_targets(const Scenario& scenario) {
 
 std::vector<Vec2> target_positions(const Scenario& scenario) {
   std::vector<Vec2> positions = mission_targets(scenario);
-  if (scenario.battery.on())
-    positions.insert(positions.end(), scenario.battery.places.begin(), scenario.battery.places.end());
+  const std::vector<Vec2> charging = held_charging_places(scenario);
+  positions.insert(positions.end(), charging.begin(), charging.end());
   for (const Station& station : scenario.stations)
     if (!station.root) positions.push_back(station.position);
   return positions;
+}
+
+bool charges(const Scenario& scenario, const Station& station) noexcept {
+  const std::vector<Vec2>& places = scenario.battery.places;
+  return scenario.battery.on() && station.course.empty() &&
+         std::find(places.begin(), places.end(), station.position) != places.end();
+}
+
+std::vector<Vec2> held_charging_places(const Scenario& scenario) {
+  std::vector<Vec2> places;
+  if (!scenario.battery.on()) return places;
+  for (const Vec2 place : scenario.battery.places)
+    if (std::none_of(scenario.stations.begin(), scenario.stations.end(),
+                     [&](const Station& s) { return s.position == place && s.course.empty(); }))
+      places.push_back(place);
+  return places;
 }
 
 double redundancy_edge_m(const Scenario& scenario) noexcept { return 0.7704205 * scenario.radio.range_m; }
@@ -97,7 +113,7 @@ std::size_t free_robot_count(const Scenario& scenario) {
   const std::vector<Vec2> targets = mission_targets(scenario);
   for (const Vec2 p : targets) length += distance(swarm.start.center, p);
   for (const Station& station : scenario.stations) length += distance(swarm.start.center, station.position);
-  const std::size_t places = scenario.battery.on() ? scenario.battery.places.size() : 0;
+  const std::size_t places = held_charging_places(scenario).size();
   return std::max(robots_for(swarm.redundancy * length / redundancy_edge_m(scenario)), targets.size() + places + 1);
 }
 

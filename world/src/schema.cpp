@@ -127,10 +127,11 @@ constexpr Section section_list[] = {
     {"battery", "What robots run on, and where they are charged. Without it they never run down.", "model"},
     {"targets", "Where the workers have to go.", "layout"},
     {"visits",
-     "Places at which a robot has to be once, beside the targets. As soon as one has been there, it is free again.",
-     "", false, true},
+     "Places at which a robot has to be once, beside the targets. As soon as one has been there, it is free again.", "",
+     false, true},
     {"stations",
-     "Nodes of the network that are no robots of the swarm, such as a base or a vehicle: repeat `[[stations]]` as often "
+     "Nodes of the network that are no robots of the swarm, such as a base or a vehicle: repeat `[[stations]]` as "
+     "often "
      "as needed. They speak the swarm's protocol, and go where their course says. They are robots, too: their numbers "
      "come after those of the others.",
      "", true, true},

@@ -31,7 +31,9 @@ Vec2 station_at(const Station& station, double time_s) noexcept {
   double left_s = time_s - station.start_s;
   // Legs begin at the place of the start; in a loop the last one leads back there.
   const std::size_t legs = station.course.size() + (station.loop ? 1 : 0);
-  const auto point = [&](std::size_t k) { return k == 0 || k > station.course.size() ? station.position : station.course[k - 1]; };
+  const auto point = [&](std::size_t k) {
+    return k == 0 || k > station.course.size() ? station.position : station.course[k - 1];
+  };
   if (station.loop) {
     double round_s = 0.0;
     for (std::size_t k = 0; k < legs; ++k)

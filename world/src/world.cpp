@@ -85,6 +85,7 @@ World::Impl::Impl(const Scenario& s, const Algorithm& algorithm_)
   const std::size_t n = poses.position.size();
   const std::vector<Vec2> positions = target_positions(s);
   mission_target_count = mission_targets(s).size();
+  charging_count = held_charging_places(s).size();
   free_robots = free_robot_count(s);
   arrived = robot_count(s);
   for (const Vec2 place : s.visits.places()) visits.push_back({place, 0});
@@ -148,6 +149,7 @@ World::Impl::Impl(const Impl& o)
       deaths(o.deaths),
       emptied(o.emptied),
       mission_target_count(o.mission_target_count),
+      charging_count(o.charging_count),
       free_robots(o.free_robots),
       tracked(o.tracked),
       visits(o.visits),
@@ -180,15 +182,14 @@ void World::Impl::act() {
   for (std::size_t s = 0; s < scenario.stations.size(); ++s) moving[free_robots + s] = {};
   bodies->step(moving, radio.near(), tick, poses, odometry);
   move_stations();
-  if (batteries.on())
-    run_down(part_s());
+  if (batteries.on()) run_down(part_s());
 }
 
 // They are where their course says, and measure how they have moved; they keep their heading. A dead one stays.
 void World::Impl::move_stations() {
   if (scenario.stations.empty()) return;
   const double now_s = static_cast<double>(moment + 1) * part_s();
-  std::size_t place = mission_target_count + (scenario.battery.on() ? scenario.battery.places.size() : 0);
+  std::size_t place = mission_target_count + charging_count;
   for (std::size_t s = 0; s < scenario.stations.size(); ++s) {
     const std::size_t i = free_robots + s;
     Target* held = scenario.stations[s].root ? nullptr : &targets[place++];
@@ -335,13 +336,14 @@ void World::Impl::sense(std::size_t i, const Odometry& moved, Proximity::Seen& s
   if (target_of[i] >= 0) {
     // Wraps for the mission's targets.
     const auto place = static_cast<std::size_t>(target_of[i]) - mission_target_count;
-    senses.orders.charging_place = scenario.battery.on() && place < scenario.battery.places.size();
+    senses.orders.charging_place = place < charging_count;
     const Vec2 d =
         rotate_back(poses.heading[i], targets[static_cast<std::size_t>(target_of[i])].position - poses.position[i]);
     senses.orders.target = {static_cast<float>(d.x), static_cast<float>(d.y)};
   }
   if (const Station* station = station_of(i)) {
     senses.orders.station = true;
+    senses.orders.charging_place = charges(scenario, *station);
     senses.orders.target.reset();
     if (station->announce_s > 0.0 && senses.orders.sent && !tracked) {
       const double then_s = static_cast<double>(moment + 1) * part_s() + station->announce_s;

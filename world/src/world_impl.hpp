@@ -31,11 +31,11 @@ struct Flight {
 
 // The motion of a target, and the distance that its worker had to it.
 struct TargetMotion {
-  double start_m = 0.0;    // how far its worker was from it at the start
+  double start_m = 0.0;     // how far its worker was from it at the start
   std::uint64_t until = 0;  // of a visit: the tick from which on another place is tried
   int tried = 0;            // and how often it has been in vain
-  Vec2 goal{};             // where it drives
-  double speed_m_s = 0.0;  // 0: it stands
+  Vec2 goal{};              // where it drives
+  double speed_m_s = 0.0;   // 0: it stands
 };
 
 // A place that a robot has to reach once, and how often one has been sent there in vain.
@@ -110,7 +110,8 @@ struct World::Impl {
   void send(std::size_t i, Vec2 position);
   void give_up(std::size_t target);
   [[nodiscard]] const Station* station_of(std::size_t i) const noexcept {
-    return i >= free_robots && i - free_robots < scenario.stations.size() ? &scenario.stations[i - free_robots] : nullptr;
+    return i >= free_robots && i - free_robots < scenario.stations.size() ? &scenario.stations[i - free_robots]
+                                                                          : nullptr;
   }
   void set_line_of_sight(bool on);
   void change_obstacles(const Action& action);
@@ -164,6 +165,7 @@ struct World::Impl {
   std::size_t deaths = 0;
   std::size_t emptied = 0;                  // of these, for want of charge
   std::size_t mission_target_count = 0;     // of the start; the charging places come after them
+  std::size_t charging_count = 0;           // of those that robots hold; the places of the stations come after them
   std::size_t free_robots = 0;              // of the start; the stations come after them
   bool tracked = false;                     // somebody else moves the bodies, stations included
   std::vector<Visit> visits;                // places to which nobody is sent at present

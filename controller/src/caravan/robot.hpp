@@ -20,7 +20,7 @@ struct Robot {
   Carry carry;
   std::span<Heard> heard;
   bool is_station = false;  // somebody else moves it, and it keeps what it holds
-  int parent = -1;  // their entries in the table
+  int parent = -1;          // their entries in the table
   int other = -1;
   Rows children{};  // robots of the tree that name me as their parent
   int child_count = 0;

@@ -89,8 +89,8 @@ State initial(RobotId id, bool worker, bool root) noexcept {
 }
 
 Output<Message> step(const Params& params, State& state, const Inputs<Heard>& inputs) noexcept {
-  Robot robot{params, state, inputs.obstacles(), inputs.elapsed_ticks(), inputs.carry(), inputs.heard(),
-              inputs.orders().station};
+  Robot robot{params,         state,          inputs.obstacles(),     inputs.elapsed_ticks(),
+              inputs.carry(), inputs.heard(), inputs.orders().station};
   file_heard(robot, inputs);
   measure_silence(robot);
   follow_orders(robot, inputs.orders());

@@ -38,10 +38,10 @@ Gate::Gate(const Senses& senses, const Platform& platform) noexcept
   if (!senses.obstacles.empty()) admit_obstacles(senses.obstacles);
 }
 
-// A station that moves goes on like that, as far as anybody can tell: the others are to follow. One that stands is where
-// it has to be.
+// A station that moves goes on like that, as far as anybody can tell: the others are to follow. One that stands is
+// where it has to be.
 Vec2 Gate::way_of_station(const Platform& platform) const noexcept {
-  constexpr float ahead = 0.5F;  // C
+  constexpr float ahead = 0.5F;   // C
   constexpr float least = 0.01F;  // of full speed: less is what a tracker trembles
   const float full = platform.wheel_limit_m_s * platform.tick_s * per_metre_ * elapsed_;
   if (norm(moved_) < least * full) return {};

@@ -73,6 +73,7 @@ std::vector<std::string> not_in_argos(const world::Scenario& scenario) {
   refuse(scenario.seed == 0 || scenario.seed > 0xFFFFFFFFU, "seed: ARGoS' is from 1 to 4294967295; 0 is its clock");
   refuse(scenario.clocks.asynchronous, "clocks.asynchronous: in ARGoS all robots step at once");
   refuse(scenario.battery.on(), "battery: our robots in ARGoS do not measure their charge");
+  refuse(!scenario.stations.empty(), "stations: in ARGoS all robots go where their controllers want");
   refuse(radio.model != world::RadioModel::Model::disc, "radio.model: only \"disc\"");
   refuse(radio.latency_ticks != 1, "radio.latency_ticks: ARGoS' is 1");
   refuse(radio.range_noise_m > 0.0 || radio.bearing_noise_rad > 0.0,

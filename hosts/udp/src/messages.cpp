@@ -87,11 +87,12 @@ std::optional<Report> take_report(DatagramReader& in) noexcept {
   return r;
 }
 
-constexpr std::uint8_t all_flags = 0x3F;
+constexpr std::uint8_t all_flags = 0x7F;
 
 std::uint8_t flags_of(const SensorFrame& frame) noexcept {
   unsigned flags = 0, bit = 1;
-  for (const bool flag : {frame.root, frame.worker, frame.begun, frame.sent, frame.has_target, frame.line_of_sight}) {
+  for (const bool flag :
+       {frame.root, frame.worker, frame.begun, frame.sent, frame.has_target, frame.line_of_sight, frame.station}) {
     flags |= flag ? bit : 0U;
     bit <<= 1U;
   }
@@ -131,7 +132,8 @@ std::optional<SensorFrame> decode_frame(ByteView bytes) {
   frame.tick = in.take<std::uint32_t>();
   unsigned flags = in.take<std::uint8_t>();
   if (flags > all_flags) return std::nullopt;
-  for (bool* flag : {&frame.root, &frame.worker, &frame.begun, &frame.sent, &frame.has_target, &frame.line_of_sight}) {
+  for (bool* flag : {&frame.root, &frame.worker, &frame.begun, &frame.sent, &frame.has_target, &frame.line_of_sight,
+                     &frame.station}) {
     *flag = (flags & 1U) != 0;
     flags >>= 1U;
   }

@@ -93,6 +93,7 @@ SensorFrame RemoteSwarm::frame_of(Robot& robot, const Senses& senses) const {
   frame.sent = senses.orders.sent;
   frame.has_target = senses.orders.target.has_value();
   frame.line_of_sight = line_of_sight_;
+  frame.station = senses.orders.station;
   frame.target = senses.orders.target.value_or(Vec2{});
   frame.odometry = robot.odometry;
   frame.given_up = robot.given_up.empty() ? nobody : link_->roster().id(robot.given_up.front());

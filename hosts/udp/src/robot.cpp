@@ -98,6 +98,7 @@ Senses UdpRobot::sense(const OdometricPose& pose, std::span<const Vec2> seen, do
   Senses senses;
   senses.odometry = motion_between(pose_, pose);
   senses.orders.sent = frame_.sent;
+  senses.orders.station = frame_.station;
   if (frame_.sent && frame_.has_target) senses.orders.target = pose.inside(target_);
   if (frame_.given_up_serial != given_up_serial_) senses.orders.given_up = frame_.given_up;
   obstacles_.assign(frame_.obstacles.begin(), frame_.obstacles.end());

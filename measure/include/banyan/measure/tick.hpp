@@ -30,8 +30,8 @@ struct Tick {
   std::uint32_t active_targets = 0;   // not given up
   std::uint32_t targets_reached = 0;  // of these, held: a living worker that serves it is within tolerance
   std::uint32_t visits = 0, visited = 0;  // places to be visited, and those where a robot has been
-  double worst_target_distance_m = 0.0;  // of these, the largest distance to the nearest living worker that
-                                         // serves it; if none does, to the body of the one first sent there
+  double worst_target_distance_m = 0.0;   // of these, the largest distance to the nearest living worker that
+                                          // serves it; if none does, to the body of the one first sent there
 
   double least_charge = -1.0, mean_charge = -1.0;  // of the living (lasting.hpp); -1: no batteries
 

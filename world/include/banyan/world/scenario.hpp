@@ -118,19 +118,19 @@ struct Battery {
   [[nodiscard]] bool on() const noexcept { return model != Model::none; }
 };
 
-// A node of the network that is no robot of the swarm: a base, a vehicle, a person. It speaks the algorithm's protocol and
-// goes where its course says, whatever the algorithm wants. Its place is held like a target, by itself.
+// A node of the network that is no robot of the swarm: a base, a vehicle, a person. It speaks the algorithm's protocol
+// and goes where its course says, whatever the algorithm wants. Its place is held like a target, by itself.
 struct Station {
   std::string name;
-  Vec2 position{};            // at the start
-  std::vector<Vec2> course;   // way points after that; none: it stands
-  double speed_m_s = 0.0;     // between them
-  double pause_s = 0.0;       // at each of them
-  double start_s = 0.0;       // it leaves then
-  bool loop = false;          // from the last way point it goes on to the first place, and so on
-  std::vector<double> times;  // s, instead of the four above: when it is at each way point
-  double announce_s = 0.0;    // so long ahead it tells the swarm where it will be
-  bool root = false;          // it is the tree's first root, and stays that
+  Vec2 position{};              // at the start
+  std::vector<Vec2> course{};   // way points after that; none: it stands
+  double speed_m_s = 0.0;       // between them
+  double pause_s = 0.0;         // at each of them
+  double start_s = 0.0;         // it leaves then
+  bool loop = false;            // from the last way point it goes on to the first place, and so on
+  std::vector<double> times{};  // s, instead of the four above: when it is at each way point
+  double announce_s = 0.0;      // so long ahead it tells the swarm where it will be
+  bool root = false;            // it is the tree's first root, and stays that
   friend bool operator==(const Station&, const Station&) = default;
 };
 
@@ -295,6 +295,10 @@ struct Scenario {
 // The target positions that `scenario` and its seed stand for, random ones clear of obstacles, and after them the
 // charging places and the places of the stations, which are held like targets. A station that is the root has none.
 [[nodiscard]] std::vector<Vec2> target_positions(const Scenario& scenario);
+// The charging places among them: where a station stands, that holds the place.
+[[nodiscard]] std::vector<Vec2> held_charging_places(const Scenario& scenario);
+// Whether robots are charged where the station stands.
+[[nodiscard]] bool charges(const Scenario& scenario, const Station& station) noexcept;
 // Without the charging places and the stations.
 [[nodiscard]] std::vector<Vec2> mission_targets(const Scenario& scenario);
 

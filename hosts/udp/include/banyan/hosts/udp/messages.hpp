@@ -38,6 +38,7 @@ struct SensorFrame {
   bool sent = false;    // Orders
   bool has_target = false;
   bool line_of_sight = true;
+  bool station = false;    // Orders
   OdometricPose odometry;  // a robot with a base of its own measures that itself
   Vec2 target;
   RobotId given_up = nobody;  // repeated until the robot's status has its serial
