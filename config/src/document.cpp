@@ -249,7 +249,7 @@ std::string Node::describe() const {
   return std::visit(Describe{}, value);
 }
 
-std::string read_text_file(const std::string& path) {
+std::string read_file(const std::string& path, std::size_t most) {
   const Place place{shared(path == "-" ? "standard input" : path), 0};
   const int fd = path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0) {
@@ -270,8 +270,14 @@ std::string read_text_file(const std::string& path) {
     if (got < 0) fail(place, std::string("cannot be read: ") + std::strerror(errno));
     if (got == 0) break;
     text.append(buffer.data(), static_cast<std::size_t>(got));
-    if (text.size() > largest_file) fail(place, "is larger than 8 MiB: this is no scenario");
+    if (text.size() > most) fail(place, "is larger than " + std::to_string(most >> 20) + " MiB");
   }
+  return text;
+}
+
+std::string read_text_file(const std::string& path) {
+  const Place place{shared(path == "-" ? "standard input" : path), 0};
+  std::string text = read_file(path, largest_file);
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // byte order mark
   if (text.find('\0') != std::string::npos) fail(place, "is a binary file; a scenario is text (TOML or JSON)");
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)

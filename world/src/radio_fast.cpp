@@ -546,7 +546,7 @@ void Radio::Fast::look_around(Site& site) const {
   std::fill_n(y, chunk, far_away);
   s.obstacles.clear();
   for (const Obstacle& obstacle : obstacles_)
-    if (clearance(obstacle, site.here) < range_m_) s.obstacles.push_back(&obstacle);
+    if (may_be_nearer(obstacle, site.here, range_m_)) s.obstacles.push_back(&obstacle);
 }
 
 // The body in the way from the robot to the other of the pair, or nearest to that line. Single precision leaves
