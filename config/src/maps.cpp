@@ -176,7 +176,7 @@ MapText read_map(const std::string& path, std::vector<Problem>& problems) {
   return map;
 }
 
-void erase(Node::Table& table, std::string_view name) {
+void erase_key(Node::Table& table, std::string_view name) {
   std::erase_if(table, [&](const Node::Member& member) { return member.name == name; });
 }
 
@@ -190,7 +190,8 @@ void put_cells(Node::Table& obstacle, const std::string& key, std::vector<Proble
   const auto at = std::find_if(obstacle.begin(), obstacle.end(), [](const auto& m) { return m.name == "file"; });
   const Node file = std::move(at->value);
   obstacle.erase(at);
-  MapText map{.cells = "."};  // stands in for what cannot be read, so that the rest can be checked
+  MapText map;
+  map.cells = ".";  // stands in for what cannot be read, so that the rest can be checked
   const auto cells = std::find_if(obstacle.begin(), obstacle.end(), [](const auto& m) { return m.name == "cells"; });
   if (file.string() == nullptr) {
     problems.push_back({file.place, key, "must be the name of a file in quotes, not " + file.describe()});
@@ -205,13 +206,13 @@ void put_cells(Node::Table& obstacle, const std::string& key, std::vector<Proble
       map = read_map(path, problems);
     } catch (const DocumentError& e) {
       Problem problem = e.problem;
-      if (!problem.place.from_file()) problem = {file.place, key, path + " " + problem.text};
+      if (!problem.place.from_file()) problem = {file.place, key, path + ": " + problem.text};
       problems.push_back(std::move(problem));
     }
     if (map.cells.empty()) map.cells = ".";
     if (is_ros_map(path) && !map.resolution_m) map.resolution_m = 1.0;
   }
-  erase(obstacle, "cells");
+  erase_key(obstacle, "cells");
   const Place& place = file.place;
   if (map.resolution_m) add(obstacle, "resolution_m", {*map.resolution_m, place});
   if (map.origin) add(obstacle, "origin_m", {Node::Array{{map.origin->x, place}, {map.origin->y, place}}, place});
@@ -224,7 +225,7 @@ void move_to_obstacles(Node& root, std::vector<Problem>& problems) {
   const Node* given = root.find("map");
   if (given == nullptr) return;
   const Node map = *given;
-  erase(*root.table(), "map");
+  erase_key(*root.table(), "map");
   if (map.string() == nullptr) {
     problems.push_back({map.place, "map", "must be the name of a file in quotes, not " + map.describe()});
     return;

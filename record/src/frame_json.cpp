@@ -225,9 +225,10 @@ world::Obstacle read_obstacle(const json& o) {
   }
   if (o.contains("wall")) return world::Wall{point_of(o, "from_m"), point_of(o, "to_m")};
   if (o.contains("map")) {
-    world::FloorMap map{.cell_m = number_of(o, "resolution_m", 1e-9, far),
-                        .origin = point_of(o, "origin_m"),
-                        .angle_rad = number_of(o, "angle_rad", -far, far)};
+    world::FloorMap map;
+    map.cell_m = number_of(o, "resolution_m", 1e-9, far);
+    map.origin = point_of(o, "origin_m");
+    map.angle_rad = number_of(o, "angle_rad", -far, far);
     const std::string text = text_of(o, "cells");
     if (world::CellGrid::text_fault(text)) fail("obstacles", "holds a map whose cells are none");
     map.cells = std::make_shared<const world::CellGrid>(world::CellGrid::from_text(text));
