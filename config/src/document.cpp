@@ -69,14 +69,33 @@ std::string lower_first(std::string text) {
   return text;
 }
 
+// The last character of the string of TOML that begins at `at`; of one that does not end, that of its line or text.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string whole(3, quote);
+  const bool lines = text.substr(at).starts_with(whole);
+  for (at += lines ? 3 : 1; at < text.size(); ++at) {
+    if (text[at] == '\\' && quote == '"') ++at;
+    else if (lines ? text.substr(at).starts_with(whole) : text[at] == quote) return at + (lines ? 2 : 0);
+    else if (!lines && text[at] == '\n') break;
+  }
+  return std::min(at, text.size());
+}
+
 // toml++ 3.3 bounds nested brackets but not dotted keys: "a.a.a..." a million times over would
 // exhaust the stack when its tables are destroyed.
 bool has_endless_key(std::string_view text) {
   int dots = 0;
-  for (const char c : text) {
-    if (c == '.') {
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (c == '"' || c == '\'') {
+      at = end_of_string(text, at);
+    } else if (c == '.') {
       if (++dots > 1000) return true;
-    } else if (c == ',' || c == '=' || c == '[' || c == ']' || c == '{' || c == '}' || c == '#' || c == '\n') {
+    } else if (c == '#') {
+      at = std::min(text.find('\n', at), text.size());
+      dots = 0;
+    } else if (c == ',' || c == '=' || c == '[' || c == ']' || c == '{' || c == '}' || c == '\n') {
       dots = 0;
     }
   }

@@ -198,8 +198,8 @@ TEST_F(Maps, OfRosSayWhatIsWrongInWhichLine) {
   NEEDS_YAML();
   const auto fault = [&](const std::string& text) { return error(load_file(write("a.yaml", text), "")); };
   EXPECT_EQ(fault("image: a.pgm\norigin: [0, 0, 0]\n"), "a.yaml:1: error: resolution: is missing");
-  EXPECT_EQ(fault("image: a.pgm\nresolution: 0\norigin: [0, 0, 0]\n"), "a.yaml:2: error: resolution: is 0; allowed: above 0 to "
-                                                                       "100000000");
+  EXPECT_EQ(fault("image: a.pgm\nresolution: 0\norigin: [0, 0, 0]\n"), "a.yaml:2: error: resolution: is 0; allowed: above 0, at "
+                                                                       "most 100000000");
   EXPECT_EQ(fault("image: a.pgm\nresolution: 1\norigin: [0, east]\n"),
             "a.yaml:3: error: origin: must be [x, y, yaw] in m and rad, not a list of 2 values");
   EXPECT_EQ(fault("image: a.pgm\nresolution: 1\norigin: [0, 0, 0]\nnegate: 2\n"),
@@ -208,7 +208,7 @@ TEST_F(Maps, OfRosSayWhatIsWrongInWhichLine) {
   EXPECT_EQ(fault("image: a.pgm\nresolution: 1\norigin: [0, 0, 0]\nfree_thresh: 0.9\n"),
             "a.yaml:4: error: free_thresh: must not be above occupied_thresh");
   EXPECT_EQ(fault("image: gone.pgm\nresolution: 1\norigin: [0, 0, 0]\n").find("no such file") == std::string::npos, false);
-  EXPECT_EQ(fault("image: [a\nresolution").substr(0, 34), "a.yaml:2: error: this is not YAML:");
+  EXPECT_EQ(fault("image: [a\nresolution").substr(0, 34), "a.yaml:3: error: this is not YAML:");
   EXPECT_EQ(fault("- image\n").substr(0, 16), "a.yaml:1: error:");
   const Loaded odd = load_file(write("b.yaml", "image: " + maps + "/floor.pgm\nresolution: 1\norigin: [0, 0, 0]\nnegat: 1\n"), "");
   EXPECT_TRUE(odd.ok()) << "ROS reads no other keys";
@@ -220,21 +220,18 @@ TEST_F(Maps, OfRosSayWhatIsWrongInWhichLine) {
 TEST_F(Maps, WithDamagedBytesAreRefusedOrRead) {
   for (const char* name : {"floor.png", "floor.bmp", "floor.pgm", "floor.yaml", "floor.map"}) {
     const std::string whole = read_file(maps + "/" + name, 1U << 20);
-    for (std::size_t at = 0; at < whole.size(); ++at)
-      for (const char with : {'\0', '\xff', '9'}) {
-        std::string damaged = whole;
-        damaged[at] = with;
-        const Loaded loaded = load_file(write(std::string("damaged-") + name, damaged));
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+      std::string damaged = whole;
+      damaged[at] = "\0\xff" "9"[at % 3];
+      for (const std::string& text : {damaged, whole.substr(0, at)}) {
+        const Loaded loaded = load_file(write(std::string("damaged-") + name, text));
         if (loaded.ok()) {
           EXPECT_NE(map_of(loaded).cells, nullptr);
         } else {
           EXPECT_NE(error(loaded), "no error");
         }
-        const Loaded cut = load_file(write(std::string("cut-") + name, whole.substr(0, at)));
-        if (cut.ok()) {
-          EXPECT_NE(map_of(cut).cells, nullptr);
-        }
       }
+    }
   }
 }
 
@@ -247,12 +244,12 @@ TEST_F(Maps, NameWhatStandsInAWallAndTheNearestFreePlace) {
   };
   EXPECT_EQ(fault("[3, 2]", "[5, 2]"), "no error");
   EXPECT_EQ(fault("[3, 2]", "[5, 0.4]"),
-            "a.toml:13: error: targets.positions_m[0]: target 0 at (5, 0.4) lies inside an obstacle; the nearest free "
-            "place is (5, 0.5752)");
+            "a.toml:14: error: targets.positions_m[0]: target 0 at (5, 0.4) lies inside an obstacle; the nearest free "
+            "place is (5.02753, 0.573833)");
   EXPECT_EQ(fault("[0.2, 2]", "[5, 2]").substr(0, 115),
-            "a.toml:11: error: swarm.start.center_m: there is no room for a robot at (0.2, 2): an obstacle is closer than ro");
+            "a.toml:11: error: swarm.start.center_m: there is no room for a robot at (0.2, 2): an obstacle is closer than robot.");
   EXPECT_EQ(fault("[3, 2]", "[12, 2]").substr(0, 109),
-            "a.toml:13: error: targets.positions_m[0]: target 0 at (12, 2) is in a room that no robot can reach from the ");
+            "a.toml:14: error: targets.positions_m[0]: target 0 at (12, 2) is in a room that no robot can reach from the s");
 }
 
 }  // namespace

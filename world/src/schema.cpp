@@ -27,12 +27,6 @@ template <> struct NamesOf<Kill::Of> {
 template <> struct NamesOf<Targets> {
   static constexpr std::string_view list[] = {"list", RingTargets::kind, RandomTargets::kind};
 };
-// Written with what is in them, not with where they come from.
-template <> struct Conversion<FileOfMap> : PlainConversion<FileOfMap, Type::text> {
-  static constexpr bool optional = true;
-  static Value get(const FileOfMap& /*file*/) { return {}; }
-  static void set(FileOfMap& /*file*/, const Value& /*value*/) {}
-};
 template <> struct Conversion<std::shared_ptr<const CellGrid>> {
   using Cells = std::shared_ptr<const CellGrid>;
   static constexpr Type type = Type::text;

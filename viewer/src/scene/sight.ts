@@ -62,6 +62,13 @@ export function inMetres(map: FloorMap, column: number, row: number): [number, n
   return [map.origin_m[0] + (c * x - s * y), map.origin_m[1] + (s * x + c * y)];
 }
 
+/** Its centre; of a wall, its middle. */
+export function centerOf(obstacle: Obstacle): [number, number] {
+  if ('map' in obstacle) return inMetres(obstacle, obstacle.cells.columns / 2, obstacle.cells.rows / 2);
+  if (!('wall' in obstacle)) return obstacle.center_m;
+  return [(obstacle.from_m[0] + obstacle.to_m[0]) / 2, (obstacle.from_m[1] + obstacle.to_m[1]) / 2];
+}
+
 function mapBlocks(map: FloorMap, ax: number, ay: number, bx: number, by: number): boolean {
   const [c, s] = rotationOf(map);
   const px = ax - map.origin_m[0], py = ay - map.origin_m[1], qx = bx - map.origin_m[0], qy = by - map.origin_m[1];

@@ -154,10 +154,9 @@ struct Wall {  // a segment without thickness
   Vec2 to;
   friend bool operator==(const Wall&, const Wall&) = default;
 };
-struct FileOfMap {};  // a key of files only: config/ puts the cells in its place
 struct FloorMap {     // occupied cells of a grid
   static constexpr std::string_view kind = "map";
-  FileOfMap file{};
+  std::optional<std::string> file{};  // config/ puts the cells in its place
   double cell_m = 0.0;  // side of a cell, above 0
   Vec2 origin{};        // the lower left corner,
   double angle_rad = 0.0;  // about which it is turned
@@ -269,7 +268,7 @@ struct Scenario {
   Clocks clocks;
   Battery battery;
   Targets targets = RingTargets{};
-  FileOfMap map;  // it becomes the last of
+  std::optional<std::string> map{};  // a file: config/ makes it the last of
   std::vector<Obstacle> obstacles;
   std::vector<Event> events;  // any order; equal times act in file order
 };
