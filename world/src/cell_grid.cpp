@@ -16,9 +16,16 @@ namespace {
 
 constexpr std::uint8_t most_reach = 255;
 
-std::int64_t whole_below(double x) noexcept { return static_cast<std::int64_t>(std::floor(x)); }
-// How far x is from the nearest line between cells.
-double to_line(double x) noexcept { return std::min(x - std::floor(x), std::floor(x) + 1.0 - x); }
+// The floor; the library's is a call where the processor may lack the instruction.
+std::int64_t whole_below(double x) noexcept {
+  const auto toward_zero = static_cast<std::int64_t>(x);
+  return toward_zero - (static_cast<double>(toward_zero) > x ? 1 : 0);
+}
+// How far x, in cell k, is from the nearest line between cells.
+double to_line(double x, std::int64_t k) noexcept {
+  const double beyond = x - static_cast<double>(k);
+  return std::min(beyond, 1.0 - beyond);
+}
 
 // ---- Cells as text ----
 
@@ -186,14 +193,11 @@ CellGrid::CellGrid(std::size_t columns, std::size_t rows, const std::vector<std:
     }
 }
 
-std::int64_t CellGrid::reach(std::int64_t column, std::int64_t row) const noexcept {
-  const auto columns = static_cast<std::int64_t>(columns_), rows = static_cast<std::int64_t>(rows_);
-  if (column >= 0 && row >= 0 && column < columns && row < rows)
-    return reach_[static_cast<std::size_t>(row * columns + column)];
-  // From outside nothing is nearer than it is from the nearest cell.
-  const std::int64_t i = std::clamp<std::int64_t>(column, 0, columns - 1), j = std::clamp<std::int64_t>(row, 0, rows - 1);
-  return std::max({std::abs(column - i), std::abs(row - j),
-                   static_cast<std::int64_t>(reach_[static_cast<std::size_t>(j * columns + i)])});
+// From outside nothing is nearer than it is from the nearest cell.
+std::int64_t CellGrid::reach_from_outside(std::int64_t column, std::int64_t row) const noexcept {
+  const std::int64_t i = std::clamp<std::int64_t>(column, 0, static_cast<std::int64_t>(columns_) - 1);
+  const std::int64_t j = std::clamp<std::int64_t>(row, 0, static_cast<std::int64_t>(rows_) - 1);
+  return std::max({std::abs(column - i), std::abs(row - j), reach(i, j)});
 }
 
 Vec2 CellGrid::nearest_of_cell(std::int64_t column, std::int64_t row, Vec2 p) noexcept {
@@ -296,11 +300,12 @@ bool CellGrid::is_inside(Vec2 p) const noexcept {
 
 // Points of the segment are looked at so near to each other that what lies between them is bounded by both.
 double CellGrid::gap(Vec2 a, Vec2 b) const noexcept {
-  constexpr double least_step = 0.5;  // cells
+  constexpr double least_step = 0.5, worth_knowing = 0.1;  // cells
   const double length = banyan::distance(a, b);
   const Vec2 along = unit(b - a);
   double clear = least_clearance(a), least = clear;
-  for (double at = 0.0; at < length && least > 0.0;) {
+  for (double at = 0.0; at < length; ) {
+    if (least < worth_knowing) return 0.0;
     const double step = std::min(std::max(least_step, 0.5 * clear), length - at);
     at += std::max(step, 1e-9 * length);
     const double next = least_clearance(at < length ? a + along * at : b);
@@ -313,8 +318,9 @@ double CellGrid::gap(Vec2 a, Vec2 b) const noexcept {
 // ---- Distances ----
 
 double CellGrid::least_clearance(Vec2 p) const noexcept {
-  const std::int64_t free = reach(whole_below(p.x), whole_below(p.y));
-  return free == 0 ? 0.0 : static_cast<double>(free - 1) + std::min(to_line(p.x), to_line(p.y));
+  const std::int64_t column = whole_below(p.x), row = whole_below(p.y);
+  const std::int64_t free = reach(column, row);
+  return free == 0 ? 0.0 : static_cast<double>(free - 1) + std::min(to_line(p.x, column), to_line(p.y, row));
 }
 
 // Rings of cells around p, or around the cell nearest to it. No cell of a ring is nearer than the ring is.
@@ -358,7 +364,7 @@ CellGrid::Found CellGrid::nearest(Vec2 p, double farthest) const noexcept {
 CellGrid::Found CellGrid::nearest_free(Vec2 p) const noexcept {
   Found best;
   const std::int64_t column = whole_below(p.x), row = whole_below(p.y);
-  const double inset = std::min(to_line(p.x), to_line(p.y));
+  const double inset = std::min(to_line(p.x, column), to_line(p.y, row));
   const auto look = [&](std::int64_t i, std::int64_t j) {
     if (occupied(i, j)) return;
     const Vec2 point = nearest_of_cell(i, j, p);

@@ -12,83 +12,89 @@
 namespace banyan::world {
 namespace {
 
-// Where the middle of a robot can be, cell by cell and a row of cells around the map. In doubt it can: a cell counts if
-// the robot may fit at some point of it.
+// Where the middle of a robot can be: runs of cells side by side in a row, and which of them hang together, corners
+// included. What is around the map belongs to it, too. In doubt a robot fits: a cell counts if it may at
+// some point of it.
 class Roads {
  public:
   struct Room {
     std::size_t cells = 0;
     Vec2 place{};  // a point of it
-    bool outside = false;
   };
 
   Roads(const FloorMap& map, double radius_m)
-      : frame_(map),
-        cells_(*map.cells),
-        cell_m_(map.cell_m),
-        radius_(radius_m / map.cell_m),
-        columns_(static_cast<std::int64_t>(cells_.columns()) + 2 * margin),
-        rows_(static_cast<std::int64_t>(cells_.rows()) + 2 * margin),
-        state_(static_cast<std::size_t>(columns_ * rows_), State::unknown) {}
-
-  // From here on robots drive, and reach the whole room.
-  void begin_at(Vec2 p) { static_cast<void>(enter(index_at(p), State::reached)); }
-
-  // The rooms in which nobody has begun.
-  [[nodiscard]] std::vector<Room> closed_rooms() {
-    std::vector<Room> rooms;
-    for (std::size_t k = 0; k < state_.size(); ++k)
-      if (const Room room = enter(k, State::closed); room.cells > 0 && !room.outside) rooms.push_back(room);
-    return rooms;
+      : frame_(map), cells_(*map.cells), cell_m_(map.cell_m), radius_(radius_m / map.cell_m),
+        margin_(static_cast<std::int64_t>(radius_) + 2) {
+    const auto columns = static_cast<std::int64_t>(cells_.columns()), rows = static_cast<std::int64_t>(cells_.rows());
+    std::size_t below = 0;  // the first run of the row below
+    for (std::int64_t row = -margin_; row < rows + margin_; ++row) {
+      const std::size_t here = runs_.size();
+      for (std::int64_t column = -margin_; column < columns + margin_; ++column) {
+        if (!fits(column, row)) continue;
+        const std::int64_t first = column;
+        while (column + 1 < columns + margin_ && fits(column + 1, row)) ++column;
+        runs_.push_back({row, first, column, runs_.size()});
+      }
+      for (std::size_t k = here, old = below; k < runs_.size(); ++k) {
+        while (old < here && runs_[old].last + 1 < runs_[k].first) ++old;
+        for (std::size_t beside = old; beside < here && runs_[beside].first <= runs_[k].last + 1; ++beside)
+          runs_[leader(beside)].leader = leader(k);
+      }
+      rows_.push_back(here);
+      below = here;
+    }
+    rows_.push_back(runs_.size());
+    reached_.resize(runs_.size(), 0);
   }
 
-  // The point that robots reach nearest to p; nothing if they reach none. O(cells)
-  [[nodiscard]] std::optional<Vec2> nearest_reached(Vec2 p) const {
-    const Vec2 at = frame_.in_cells(p);
-    if (state_[index_at(p)] == State::reached) return p;
-    std::optional<Vec2> best;
-    double least2 = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < state_.size(); ++k) {
-      if (state_[k] != State::reached) continue;
-      const double away2 = squared_norm(middle_of(k) - at);
-      if (away2 >= least2) continue;
-      least2 = away2;
-      best = frame_.in_metres(middle_of(k));
+  // From here on robots drive, and reach the whole room.
+  void begin_at(Vec2 p) {
+    if (const auto run = run_at(p)) reached_[leader(*run)] = 1;
+  }
+
+  // The rooms in which nobody has begun; all around the map is none.
+  [[nodiscard]] std::vector<Room> closed_rooms() {
+    std::vector<Room> rooms(runs_.size());
+    for (std::size_t k = 0; k < runs_.size(); ++k) {
+      Room& room = rooms[leader(k)];
+      if (room.cells == 0) room.place = frame_.in_metres(middle_of(runs_[k], 0.5 * static_cast<double>(runs_[k].first + runs_[k].last + 1)));
+      room.cells += static_cast<std::size_t>(runs_[k].last + 1 - runs_[k].first);
     }
+    const std::size_t outside = runs_.empty() ? 0 : leader(0);
+    std::vector<Room> closed;
+    for (std::size_t k = 0; k < rooms.size(); ++k)
+      if (rooms[k].cells > 0 && reached_[k] == 0 && k != outside) closed.push_back(rooms[k]);
+    return closed;
+  }
+
+  // The point that robots reach nearest to p; nothing if they reach none.
+  [[nodiscard]] std::optional<Vec2> nearest_reached(Vec2 p) {
+    if (const auto run = run_at(p); run && reached_[leader(*run)] != 0) return p;
+    const Vec2 at = frame_.in_cells(p);
+    std::optional<Vec2> best;
+    for (std::size_t k = 0; k < runs_.size(); ++k) {
+      if (reached_[leader(k)] == 0) continue;
+      const Vec2 q = middle_of(runs_[k], at.x);
+      if (!best || squared_norm(q - at) < squared_norm(*best - at)) best = q;
+    }
+    if (best) best = frame_.in_metres(*best);
     return best;
   }
   // Whether they come so near to it.
-  [[nodiscard]] bool lead_to(Vec2 p, double within_m) const {
+  [[nodiscard]] bool lead_to(Vec2 p, double within_m) {
     const std::optional<Vec2> nearest = nearest_reached(p);
     return nearest && distance(*nearest, p) <= within_m + cell_m_;
   }
 
  private:
-  enum class State : std::uint8_t { unknown, narrow, reached, closed };
-  static constexpr std::int64_t margin = 1;
+  struct Run {
+    std::int64_t row, first, last;  // columns
+    std::size_t leader;             // another one of the same room, or itself
+  };
 
-  Room enter(std::size_t first, State as) {
-    Room room;
-    const auto visit = [&](std::int64_t column, std::int64_t row) {
-      if (column < 0 || row < 0 || column >= columns_ || row >= rows_) {
-        room.outside = true;
-        return;
-      }
-      const auto index = static_cast<std::size_t>(row * columns_ + column);
-      if (state_[index] != State::unknown) return;
-      state_[index] = fits(column - margin, row - margin) ? as : State::narrow;
-      if (state_[index] == as) open_.push_back(index);
-    };
-    const auto columns = static_cast<std::size_t>(columns_);
-    visit(static_cast<std::int64_t>(first % columns), static_cast<std::int64_t>(first / columns));
-    while (!open_.empty()) {
-      const std::size_t at = open_.back();
-      open_.pop_back();
-      if (room.cells++ == 0) room.place = frame_.in_metres(middle_of(at));
-      for (std::int64_t k = 0; k < 9; ++k)
-        visit(static_cast<std::int64_t>(at % columns) + k % 3 - 1, static_cast<std::int64_t>(at / columns) + k / 3 - 1);
-    }
-    return room;
+  [[nodiscard]] std::size_t leader(std::size_t k) noexcept {
+    while (runs_[k].leader != k) k = runs_[k].leader = runs_[runs_[k].leader].leader;
+    return k;
   }
   [[nodiscard]] bool fits(std::int64_t column, std::int64_t row) const {
     constexpr double half_diagonal = 0.7072;
@@ -97,24 +103,30 @@ class Roads {
     const Vec2 middle{static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5};
     return cells_.clearance(middle) + half_diagonal >= radius_;
   }
-  [[nodiscard]] Vec2 middle_of(std::size_t index) const {
-    const auto columns = static_cast<std::size_t>(columns_);
-    return {static_cast<double>(index % columns) - margin + 0.5, static_cast<double>(index / columns) - margin + 0.5};
+  // A point in the middle of the run's row, at x if it reaches so far; in cells.
+  [[nodiscard]] static Vec2 middle_of(const Run& run, double x) noexcept {
+    return {std::clamp(x, static_cast<double>(run.first) + 0.5, static_cast<double>(run.last) + 0.5),
+            static_cast<double>(run.row) + 0.5};
   }
-  [[nodiscard]] std::size_t index_at(Vec2 p) const {
-    const Vec2 at = frame_.in_cells(p);
-    const auto within = [](double x, std::int64_t size) {
-      return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(x)) + margin, 0, size - 1);
+  [[nodiscard]] std::optional<std::size_t> run_at(Vec2 p) const {
+    const auto within = [this](double x, std::size_t size) {
+      return std::clamp(static_cast<std::int64_t>(std::floor(x)), -margin_, static_cast<std::int64_t>(size) + margin_ - 1);
     };
-    return static_cast<std::size_t>(within(at.y, rows_) * columns_ + within(at.x, columns_));
+    const Vec2 at = frame_.in_cells(p);
+    const std::int64_t column = within(at.x, cells_.columns());
+    const auto row = static_cast<std::size_t>(within(at.y, cells_.rows()) + margin_);
+    for (std::size_t k = rows_[row]; k < rows_[row + 1]; ++k)
+      if (runs_[k].first <= column && column <= runs_[k].last) return k;
+    return std::nullopt;
   }
 
   CellFrame frame_;
   const CellGrid& cells_;
   double cell_m_, radius_;
-  std::int64_t columns_, rows_;
-  std::vector<State> state_;
-  std::vector<std::size_t> open_;
+  std::int64_t margin_;  // of cells around the map, in which a robot fits
+  std::vector<Run> runs_;  // row by row, from the left
+  std::vector<std::size_t> rows_;  // their first runs, and the end
+  std::vector<std::uint8_t> reached_;  // by leader
 };
 
 }  // namespace

@@ -38,7 +38,10 @@ class CellGrid {
   [[nodiscard]] bool occupied(std::int64_t column, std::int64_t row) const noexcept { return reach(column, row) == 0; }
   // No occupied cell is fewer columns and fewer rows away than this; 0: the cell is occupied. Exact up to 254, within
   // the grid.
-  [[nodiscard]] std::int64_t reach(std::int64_t column, std::int64_t row) const noexcept;
+  [[nodiscard]] std::int64_t reach(std::int64_t column, std::int64_t row) const noexcept {
+    const auto i = static_cast<std::size_t>(column), j = static_cast<std::size_t>(row);  // negative ones become huge
+    return i < columns_ && j < rows_ ? reach_[j * columns_ + i] : reach_from_outside(column, row);
+  }
 
   // Whether the open segment a-b meets the inside of the occupied area, or passes between two occupied cells that touch
   // at a corner. Along an edge of the area, or by a corner of it, it is free. Symmetric in a and b to the last bit.
@@ -113,6 +116,7 @@ class CellGrid {
   [[nodiscard]] static Vec2 nearest_of_cell(std::int64_t column, std::int64_t row, Vec2 p) noexcept;
   [[nodiscard]] static std::int64_t first_near(double x, double farthest) noexcept;
   [[nodiscard]] static std::int64_t last_near(double x, double farthest, std::size_t size) noexcept;
+  [[nodiscard]] std::int64_t reach_from_outside(std::int64_t column, std::int64_t row) const noexcept;
   // The cell that p is in, or the nearest one.
   [[nodiscard]] std::int64_t column_at(double x) const noexcept;
   [[nodiscard]] std::int64_t row_at(double y) const noexcept;
