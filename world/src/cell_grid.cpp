@@ -206,10 +206,10 @@ Vec2 CellGrid::nearest_of_cell(std::int64_t column, std::int64_t row, Vec2 p) no
 }
 
 std::int64_t CellGrid::first_near(double x, double farthest) noexcept {
-  return std::max<std::int64_t>(0, whole_below(x - farthest) - 1);
+  return std::max<std::int64_t>(0, -whole_below(farthest - x) - 1);
 }
 std::int64_t CellGrid::last_near(double x, double farthest, std::size_t size) noexcept {
-  return std::min(static_cast<std::int64_t>(size) - 1, whole_below(x + farthest) + 1);
+  return std::min(static_cast<std::int64_t>(size) - 1, whole_below(x + farthest));
 }
 
 std::int64_t CellGrid::column_at(double x) const noexcept {
