@@ -18,7 +18,8 @@ namespace {
 using world::CellGrid;
 
 constexpr std::size_t largest_picture = std::size_t{64} << 20;
-constexpr std::size_t longest_cells = std::size_t{4} << 20;  // a file with them is read again, and read_text_file() allows 8
+constexpr std::size_t longest_cells = std::size_t{4}
+                                      << 20;  // a file with them is read again, and read_text_file() allows 8
 
 [[noreturn]] void fail(const std::string& path, int line, std::string text) {
   throw DocumentError({{std::make_shared<const std::string>(path), line}, "", std::move(text)});
@@ -142,8 +143,9 @@ std::string read_moving_ai(const std::string& path) {
   const std::size_t rows = size("height", 2), columns = size("width", 3);
   if (cut_line(text) != "map") fail(path, 4, "must be \"map\"");
   if (rows == 0 || columns == 0 || columns > CellGrid::most_cells || rows > CellGrid::most_cells / columns)
-    fail(path, 2, "has " + std::to_string(columns) + " x " + std::to_string(rows) + " cells; 1 to " +
-                      std::to_string(CellGrid::most_cells) + " are possible, as of 4096 x 4096");
+    fail(path, 2,
+         "has " + std::to_string(columns) + " x " + std::to_string(rows) + " cells; 1 to " +
+             std::to_string(CellGrid::most_cells) + " are possible, as of 4096 x 4096");
   constexpr std::string_view free = ".GS", blocked = "@OTW";
   std::vector<std::uint8_t> occupied(rows * columns);
   for (std::size_t row = 0; row < rows; ++row) {
@@ -171,8 +173,9 @@ MapText read_map(const std::string& path, std::vector<Problem>& problems) {
   else if (path.ends_with(".map")) map.cells = read_moving_ai(path);
   else map.cells = cells_of_picture(path, {});
   if (map.cells.size() > longest_cells)
-    fail(path, 0, "has so ragged walls that they take " + std::to_string(map.cells.size() >> 20) +
-                      " MiB as text; at most 4 are possible: give it fewer cells");
+    fail(path, 0,
+         "has so ragged walls that they take " + std::to_string(map.cells.size() >> 20) +
+             " MiB as text; at most 4 are possible: give it fewer cells");
   return map;
 }
 

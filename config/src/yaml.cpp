@@ -65,7 +65,8 @@ Node scalar(const yaml_node_t& node, Place place) {
   return {std::move(text), std::move(place)};
 }
 
-Node to_node(yaml_document_t& document, int index, const std::shared_ptr<const std::string>& origin, std::size_t depth) {
+Node to_node(yaml_document_t& document, int index, const std::shared_ptr<const std::string>& origin,
+             std::size_t depth) {
   const yaml_node_t* node = yaml_document_get_node(&document, index);
   const Place place{origin, static_cast<int>(node->start_mark.line) + 1};
   if (depth > deepest_nesting) throw DocumentError({place, "", "nested too deeply, or with an anchor in itself"});

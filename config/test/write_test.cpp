@@ -64,10 +64,9 @@ template <class Owner> rc::Gen<json> value_of(const world::Key<Owner>& key) {
     return rc::gen::map(rc::gen::nonEmpty(rc::gen::container<std::string>(rc::gen::inRange('a', 'z'))),
                         [](const std::string& s) { return json(s.substr(0, 100)); });
   if (key.path == "obstacles.cells")
-    return rc::gen::map(rc::gen::nonEmpty(rc::gen::container<std::vector<std::uint8_t>>(rc::gen::inRange(0, 2))),
-                        [](const std::vector<std::uint8_t>& cells) {
-                          return json(world::CellGrid(cells.size(), 1, cells).text());
-                        });
+    return rc::gen::map(
+        rc::gen::nonEmpty(rc::gen::container<std::vector<std::uint8_t>>(rc::gen::inRange(0, 2))),
+        [](const std::vector<std::uint8_t>& cells) { return json(world::CellGrid(cells.size(), 1, cells).text()); });
   return rc::gen::map(rc::gen::container<std::string>(rc::gen::inRange(' ', '\x7f')),
                       [](const std::string& s) { return json(s + "\t\"\\"); });
 }

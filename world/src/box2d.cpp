@@ -71,8 +71,8 @@ struct AddFixture {
   void operator()(const FloorMap& /*map*/) const {}  // only what is near robots: Outline
 };
 
-// The edge of a map's occupied area near robots, as straight pieces as long as they are there: a robot that slides along
-// a wall would catch on seams.
+// The edge of a map's occupied area near robots, as straight pieces as long as they are there: a robot that slides
+// along a wall would catch on seams.
 class Outline {
  public:
   explicit Outline(const CellGrid& cells) : cells_{cells} {}

@@ -92,7 +92,8 @@ std::optional<std::string> CellGrid::text_fault(std::string_view text) {
   std::size_t rows = 0, columns = 0, lines = 0;
   each_row(text, [&](const RowText& row) {
     std::size_t length = 0;
-    fault = each_run(row.cells, [&](bool /*occupied*/, std::size_t run) { length = std::min(length + run, most_cells + 1); });
+    fault = each_run(row.cells,
+                     [&](bool /*occupied*/, std::size_t run) { length = std::min(length + run, most_cells + 1); });
     const std::string name = "row " + std::to_string(++lines);
     if (fault) fault = name + " " + *fault;
     else if (length == 0 || row.times == 0) fault = name + " has no cells";
@@ -179,7 +180,8 @@ CellGrid::CellGrid(std::size_t columns, std::size_t rows, const std::vector<std:
       std::uint8_t least = most_reach;
       if (i > 0) least = at(i - 1, j);
       if (j > 0)
-        for (std::size_t k = i > 0 ? i - 1 : 0; k < std::min(columns, i + 2); ++k) least = std::min(least, at(k, j - 1));
+        for (std::size_t k = i > 0 ? i - 1 : 0; k < std::min(columns, i + 2); ++k)
+          least = std::min(least, at(k, j - 1));
       at(i, j) = one_more(least);
     }
   for (std::size_t j = rows; j-- > 0;)
@@ -188,7 +190,8 @@ CellGrid::CellGrid(std::size_t columns, std::size_t rows, const std::vector<std:
       std::uint8_t least = most_reach;
       if (i + 1 < columns) least = at(i + 1, j);
       if (j + 1 < rows)
-        for (std::size_t k = i > 0 ? i - 1 : 0; k < std::min(columns, i + 2); ++k) least = std::min(least, at(k, j + 1));
+        for (std::size_t k = i > 0 ? i - 1 : 0; k < std::min(columns, i + 2); ++k)
+          least = std::min(least, at(k, j + 1));
       at(i, j) = std::min(at(i, j), one_more(least));
     }
 }
@@ -223,8 +226,7 @@ std::int64_t CellGrid::row_at(double y) const noexcept {
 
 // Along a line of cells: at(k, 0) is cell k of the line, at(k, -1) the one beside it, from which it is separated by the
 // segment if that runs on the line between them (`across` is whole).
-template <class Reach>
-bool CellGrid::blocks_along(const Reach& at, double across, double from, double to) noexcept {
+template <class Reach> bool CellGrid::blocks_along(const Reach& at, double across, double from, double to) noexcept {
   const std::int64_t row = whole_below(across), end = static_cast<std::int64_t>(std::ceil(to));
   const bool between = static_cast<double>(row) == across;
   for (std::int64_t k = whole_below(from); k < end;) {
@@ -304,7 +306,7 @@ double CellGrid::gap(Vec2 a, Vec2 b) const noexcept {
   const double length = banyan::distance(a, b);
   const Vec2 along = unit(b - a);
   double clear = least_clearance(a), least = clear;
-  for (double at = 0.0; at < length; ) {
+  for (double at = 0.0; at < length;) {
     if (least < worth_knowing) return 0.0;
     const double step = std::min(std::max(least_step, 0.5 * clear), length - at);
     at += std::max(step, 1e-9 * length);
@@ -331,8 +333,9 @@ CellGrid::Found CellGrid::nearest(Vec2 p, double farthest) const noexcept {
   const Vec2 within{std::clamp(p.x, 0.0, static_cast<double>(columns_)),
                     std::clamp(p.y, 0.0, static_cast<double>(rows_))};
   const double outside2 = squared_norm(p - within);
-  const std::array<double, 4> to_sides{within.x - static_cast<double>(column), static_cast<double>(column + 1) - within.x,
-                                       within.y - static_cast<double>(row), static_cast<double>(row + 1) - within.y};
+  const std::array<double, 4> to_sides{within.x - static_cast<double>(column),
+                                       static_cast<double>(column + 1) - within.x, within.y - static_cast<double>(row),
+                                       static_cast<double>(row + 1) - within.y};
   const double inset = std::max(0.0, *std::min_element(to_sides.begin(), to_sides.end()));
   const auto look = [&](std::int64_t i, std::int64_t j) {
     const std::int64_t free = reach(i, j);

@@ -396,12 +396,11 @@ void check_placed(FaultList& list, const Scenario& scenario) {
   const Start& start = scenario.swarm.start;
   const std::vector<Vec2> p = place(scenario).position;
   if (p.empty() && start.layout != Layout::ring && start.layout != Layout::bridge)
-    return list.fail("swarm.start.center_m",
-                     "there is no room for a robot at " + at(start.center) +
-                         ": an obstacle is closer than robot.radius_m" +
-                         (start.layout == Layout::random ? "" : " + swarm.start.jitter_m") +
-                         free_place_text(list, scenario.obstacles, start.center,
-                                         scenario.robot.radius_m + start_jitter_m(scenario)));
+    return list.fail("swarm.start.center_m", "there is no room for a robot at " + at(start.center) +
+                                                 ": an obstacle is closer than robot.radius_m" +
+                                                 (start.layout == Layout::random ? "" : " + swarm.start.jitter_m") +
+                                                 free_place_text(list, scenario.obstacles, start.center,
+                                                                 scenario.robot.radius_m + start_jitter_m(scenario)));
   if (p.size() < robot_count(scenario))
     return list.fail("swarm.start", "only " + std::to_string(p.size()) + " of " +
                                         std::to_string(robot_count(scenario)) +
@@ -497,7 +496,8 @@ void check_target_room(FaultList& list, const Scenario& scenario, std::span<cons
     list.fail(key, name + " at " + at(p) + " lies inside an obstacle" + elsewhere());
   } else if (room + target_tolerance_m(scenario) < scenario.robot.radius_m) {
     list.fail(key, name + " at " + at(p) + " is so close to an obstacle that no robot of radius " +
-                       short_text(scenario.robot.radius_m) + " m gets within mission.target_tolerance_m of it" + elsewhere());
+                       short_text(scenario.robot.radius_m) + " m gets within mission.target_tolerance_m of it" +
+                       elsewhere());
   }
 }
 

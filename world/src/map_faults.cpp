@@ -23,7 +23,10 @@ class Roads {
   };
 
   Roads(const FloorMap& map, double radius_m)
-      : frame_(map), cells_(*map.cells), cell_m_(map.cell_m), radius_(radius_m / map.cell_m),
+      : frame_(map),
+        cells_(*map.cells),
+        cell_m_(map.cell_m),
+        radius_(radius_m / map.cell_m),
         margin_(static_cast<std::int64_t>(radius_) + 2) {
     const auto columns = static_cast<std::int64_t>(cells_.columns()), rows = static_cast<std::int64_t>(cells_.rows());
     std::size_t below = 0;  // the first run of the row below
@@ -57,7 +60,9 @@ class Roads {
     std::vector<Room> rooms(runs_.size());
     for (std::size_t k = 0; k < runs_.size(); ++k) {
       Room& room = rooms[leader(k)];
-      if (room.cells == 0) room.place = frame_.in_metres(middle_of(runs_[k], 0.5 * static_cast<double>(runs_[k].first + runs_[k].last + 1)));
+      if (room.cells == 0)
+        room.place =
+            frame_.in_metres(middle_of(runs_[k], 0.5 * static_cast<double>(runs_[k].first + runs_[k].last + 1)));
       room.cells += static_cast<std::size_t>(runs_[k].last + 1 - runs_[k].first);
     }
     const std::size_t outside = runs_.empty() ? 0 : leader(0);
@@ -110,7 +115,8 @@ class Roads {
   }
   [[nodiscard]] std::optional<std::size_t> run_at(Vec2 p) const {
     const auto within = [this](double x, std::size_t size) {
-      return std::clamp(static_cast<std::int64_t>(std::floor(x)), -margin_, static_cast<std::int64_t>(size) + margin_ - 1);
+      return std::clamp(static_cast<std::int64_t>(std::floor(x)), -margin_,
+                        static_cast<std::int64_t>(size) + margin_ - 1);
     };
     const Vec2 at = frame_.in_cells(p);
     const std::int64_t column = within(at.x, cells_.columns());
@@ -123,9 +129,9 @@ class Roads {
   CellFrame frame_;
   const CellGrid& cells_;
   double cell_m_, radius_;
-  std::int64_t margin_;  // of cells around the map, in which a robot fits
-  std::vector<Run> runs_;  // row by row, from the left
-  std::vector<std::size_t> rows_;  // their first runs, and the end
+  std::int64_t margin_;                // of cells around the map, in which a robot fits
+  std::vector<Run> runs_;              // row by row, from the left
+  std::vector<std::size_t> rows_;      // their first runs, and the end
   std::vector<std::uint8_t> reached_;  // by leader
 };
 
@@ -163,7 +169,8 @@ void check_ways(FaultList& list, const Scenario& scenario, std::span<const Vec2>
       if (!roads.lead_to(targets[i], target_tolerance_m(scenario)))
         list.fail(key_of(i), "target " + std::to_string(i) + " at " + at(targets[i]) +
                                  " is in a room that no robot can reach from the start; the nearest place that they "
-                                 "reach is " + at(roads.nearest_reached(targets[i]).value_or(start.front())));
+                                 "reach is " +
+                                 at(roads.nearest_reached(targets[i]).value_or(start.front())));
     const std::vector<Roads::Room> rooms = roads.closed_rooms();
     if (rooms.empty()) continue;
     const auto smaller = [](const Roads::Room& a, const Roads::Room& b) { return a.cells < b.cells; };

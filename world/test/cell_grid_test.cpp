@@ -204,9 +204,7 @@ TEST(CellGrid, PushesADiscOutOfWallsAndCorners) {
     const Place shift = grid.push_out(p, radius);
     ASSERT_GE(grid.clearance(p + shift), radius * (1.0 - 1e-6)) << p.x << ' ' << p.y << " radius " << radius;
     ASSERT_LE(norm(shift), 1.5 * (radius + 1.0)) << "no farther than needed";
-    if (grid.clearance(p) >= radius) {
-      ASSERT_EQ(shift, Place{});
-    }
+    if (grid.clearance(p) >= radius) { ASSERT_EQ(shift, Place{}); }
   }
 }
 
@@ -249,8 +247,9 @@ TEST(CellGrid, IsMadeUpOfItsBlocks) {
 TEST(CellGrid, IsTheSameAfterItsText) {
   GridDraws draws(9);
   for (int trial = 0; trial < 500; ++trial) {
-    const CellGrid grid = draws.grid(1 + static_cast<std::size_t>(draws.between(0.0, 40.0)),
-                                     1 + static_cast<std::size_t>(draws.between(0.0, 20.0)), trial % 3 == 0 ? 0.02 : 0.5);
+    const CellGrid grid =
+        draws.grid(1 + static_cast<std::size_t>(draws.between(0.0, 40.0)),
+                   1 + static_cast<std::size_t>(draws.between(0.0, 20.0)), trial % 3 == 0 ? 0.02 : 0.5);
     ASSERT_EQ(CellGrid::text_fault(grid.text()), std::nullopt);
     ASSERT_EQ(CellGrid::from_text(grid.text()), grid) << grid.text();
   }
@@ -261,8 +260,9 @@ TEST(CellGrid, IsTheSameAfterItsText) {
 TEST(CellGrid, SaysWhatIsWrongWithAText) {
   const auto fault = [](std::string_view text) { return CellGrid::text_fault(text).value_or("nothing"); };
   EXPECT_EQ(fault(""), "has no cells");
-  EXPECT_EQ(fault("##\n#x"), "row 2 has a 'x'; cells are '#', occupied, or '.', free, with a number before several of "
-                             "the same");
+  EXPECT_EQ(fault("##\n#x"),
+            "row 2 has a 'x'; cells are '#', occupied, or '.', free, with a number before several of "
+            "the same");
   EXPECT_EQ(fault("###\n##"), "row 2 has 2 cells, those above have 3");
   EXPECT_EQ(fault("##\n\n##"), "row 2 has no cells");
   EXPECT_EQ(fault("0*##"), "row 1 has no cells");

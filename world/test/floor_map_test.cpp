@@ -75,11 +75,12 @@ TEST(FloorMap, HidesFromTheRadioWhatTheSameBoxesHide) {
       std::vector<std::pair<std::uint32_t, std::uint32_t>> odd;
       std::set_symmetric_difference(found.begin(), found.end(), wanted.begin(), wanted.end(), std::back_inserter(odd));
       for (const auto& [i, j] : odd)
-        ADD_FAILURE() << "tick " << tick << " at angle " << angle_rad << ": (" << positions[i].x << ", " << positions[i].y
-                      << ") to (" << positions[j].x << ", " << positions[j].y << "): "
-                      << (blocks(map, positions[i], positions[j]) ? "map " : "")
-                      << (std::any_of(boxed.obstacles.begin(), boxed.obstacles.end(),
-                                      [&, a = positions[i], b = positions[j]](const Obstacle& o) { return blocks(o, a, b); })
+        ADD_FAILURE() << "tick " << tick << " at angle " << angle_rad << ": (" << positions[i].x << ", "
+                      << positions[i].y << ") to (" << positions[j].x << ", " << positions[j].y
+                      << "): " << (blocks(map, positions[i], positions[j]) ? "map " : "")
+                      << (std::any_of(
+                              boxed.obstacles.begin(), boxed.obstacles.end(),
+                              [&, a = positions[i], b = positions[j]](const Obstacle& o) { return blocks(o, a, b); })
                               ? "boxes "
                               : "")
                       << "block it";
@@ -133,7 +134,8 @@ TEST(FloorMap, KeepsBodiesOut) {
     std::size_t touches = 0;
     for (std::uint64_t tick = 0; tick < 3000; ++tick) {
       for (std::size_t i = 0; i < 8; ++i)
-        command[i] = {0.2F, 0.0F, static_cast<float>(draw(i, tick / 50, 4) < 0.3 ? 2.0 * draw(i, tick / 50, 5) - 1.0 : 0.0)};
+        command[i] = {0.2F, 0.0F,
+                      static_cast<float>(draw(i, tick / 50, 4) < 0.3 ? 2.0 * draw(i, tick / 50, 5) - 1.0 : 0.0)};
       bodies->step(command, {}, tick, poses, odometry);
       for (const Vec2 p : poses.position) {
         const double depth_m = s.robot.radius_m - clearance(s.obstacles[0], p);
@@ -162,18 +164,17 @@ TEST(FloorMap, IsSeenByProximityOnAllSides) {
     // Of each cell within reach some point is seen that is no farther, and not more than an eighth of a turn aside.
     each_near(std::get<FloorMap>(s.obstacles[0]), p, 0.699, [&](Vec2 point) {
       const Vec2 d = rotate_back(poses.heading[0], point - p);
-      const bool covered = std::any_of(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(count), [&](const auto& o) {
-        const Vec2 q{static_cast<double>(o.x), static_cast<double>(o.y)};
-        return norm(q) <= norm(d) + 1e-6 && dot(q, d) >= (std::sqrt(0.5) - 1e-6) * norm(q) * norm(d);
-      });
+      const bool covered =
+          std::any_of(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(count), [&](const auto& o) {
+            const Vec2 q{static_cast<double>(o.x), static_cast<double>(o.y)};
+            return norm(q) <= norm(d) + 1e-6 && dot(q, d) >= (std::sqrt(0.5) - 1e-6) * norm(q) * norm(d);
+          });
       EXPECT_TRUE(covered) << p.x << ' ' << p.y;
     });
     in_corners += count > 4 ? 1 : 0;
     const double nearest = clearance(s.obstacles[0], p);
     ASSERT_EQ(count > 0, nearest <= 0.7);
-    if (count > 0) {
-      ASSERT_NEAR(norm(seen[0]), nearest, 1e-6) << "the nearest point is the first";
-    }
+    if (count > 0) { ASSERT_NEAR(norm(seen[0]), nearest, 1e-6) << "the nearest point is the first"; }
   }
   EXPECT_GT(in_corners, 20);
 }

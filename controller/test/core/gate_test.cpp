@@ -178,9 +178,10 @@ TEST(Gate, OfMoreObstaclesThanItHoldsTheNearestOnEachSideCount) {
     for (const Vec2 o : sensed) {
       if (std::isnan(o.x)) continue;
       const Vec2 point = o * 0.5F;
-      EXPECT_TRUE(std::any_of(kept.begin(), kept.end(), [&](Vec2 k) {
-        return norm(k) <= norm(point) && dot(k, point) >= 0.98F * norm(k) * norm(point);
-      })) << point.x << ' ' << point.y;
+      EXPECT_TRUE(
+          std::any_of(kept.begin(), kept.end(),
+                      [&](Vec2 k) { return norm(k) <= norm(point) && dot(k, point) >= 0.98F * norm(k) * norm(point); }))
+          << point.x << ' ' << point.y;
     }
   }
 }

@@ -82,8 +82,8 @@ void write_markers(CdrWriter& out, const Stamp& stamp, const Setting& setting, c
 // Its cells, 0 free and 100 occupied; the lowest row first.
 void write_map(CdrWriter& out, const Stamp& stamp, const world::FloorMap& map);
 
-// The maps of a setting on /map, and on /map_2 and so on if there are several: each when there is one, and again when it
-// has changed, since viewers keep the last.
+// The maps of a setting on /map, and on /map_2 and so on if there are several: each when there is one, and again when
+// it has changed, since viewers keep the last.
 class MapTopics {
  public:
   // Returns how many messages this made.

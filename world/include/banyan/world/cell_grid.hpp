@@ -74,8 +74,8 @@ class CellGrid {
       }
   }
 
-  // Calls visit(low, high) with the corners of rectangles that the occupied cells make up, each as wide as it can be and
-  // then as high.
+  // Calls visit(low, high) with the corners of rectangles that the occupied cells make up, each as wide as it can be
+  // and then as high.
   template <class Visit> void each_block(const Visit& visit) const {
     std::vector<Block> open, next;  // of the row below, by column
     for (std::size_t row = 0; row <= rows_; ++row) {

@@ -154,12 +154,12 @@ struct Wall {  // a segment without thickness
   Vec2 to;
   friend bool operator==(const Wall&, const Wall&) = default;
 };
-struct FloorMap {     // occupied cells of a grid
+struct FloorMap {  // occupied cells of a grid
   static constexpr std::string_view kind = "map";
-  std::optional<std::string> file{};  // config/ puts the cells in its place
-  double cell_m = 0.0;  // side of a cell, above 0
-  Vec2 origin{};        // the lower left corner,
-  double angle_rad = 0.0;  // about which it is turned
+  std::optional<std::string> file{};      // config/ puts the cells in its place
+  double cell_m = 0.0;                    // side of a cell, above 0
+  Vec2 origin{};                          // the lower left corner,
+  double angle_rad = 0.0;                 // about which it is turned
   std::shared_ptr<const CellGrid> cells;  // none while it is being described
 
   friend bool operator==(const FloorMap& a, const FloorMap& b) noexcept {
