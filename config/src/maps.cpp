@@ -37,13 +37,13 @@ struct MapText {
 
 // How ROS makes cells of pixels: map_server of Navigation 2.
 enum class Mode : std::uint8_t { trinary, scale, raw };
-struct Reading {
+struct PixelReading {
   Mode mode = Mode::trinary;
   bool negate = false;
   double occupied_above = 0.65;
 };
 
-bool is_occupied(const Pixels& pixels, std::size_t pixel, const Reading& reading) {
+bool is_occupied(const PictureSamples& pixels, std::size_t pixel, const PixelReading& reading) {
   const std::uint8_t* sample = pixels.samples.data() + pixel * pixels.channels;
   const std::size_t colors = pixels.channels - (pixels.has_alpha() ? 1 : 0);
   if (reading.mode == Mode::scale && pixels.has_alpha() && sample[colors] < 255) return false;  // unknown
@@ -56,10 +56,11 @@ bool is_occupied(const Pixels& pixels, std::size_t pixel, const Reading& reading
   return (reading.negate ? shade : 1.0 - shade) > reading.occupied_above;
 }
 
-std::string cells_of_picture(const std::string& path, const Reading& reading) {
-  const std::variant<Pixels, std::string> read = read_picture(read_file(path, largest_picture), CellGrid::most_cells);
+std::string cells_of_picture(const std::string& path, const PixelReading& reading) {
+  const std::variant<PictureSamples, std::string> read =
+      read_picture(read_file(path, largest_picture), CellGrid::most_cells);
   if (const auto* fault = std::get_if<std::string>(&read)) fail(path, 0, *fault);
-  const auto& pixels = std::get<Pixels>(read);
+  const auto& pixels = std::get<PictureSamples>(read);
   std::vector<std::uint8_t> occupied(pixels.width * pixels.height);
   for (std::size_t row = 0; row < pixels.height; ++row)
     for (std::size_t column = 0; column < pixels.width; ++column)
@@ -80,7 +81,7 @@ MapText read_ros_map(const std::string& path, std::vector<Problem>& problems) {
   std::vector<Problem> found;
   TableReader table(root, "", found);
   MapText map;
-  Reading reading;
+  PixelReading reading;
   for (const char* key : {"image", "resolution", "origin"}) table.require(key);
   const std::string image = table.text("image");
   map.resolution_m = table.number("resolution", Range{0.0, 1e8, true});

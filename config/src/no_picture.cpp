@@ -4,7 +4,7 @@
 
 namespace banyan::config {
 
-std::variant<Pixels, std::string> read_picture(std::string_view /*bytes*/, std::size_t /*most_pixels*/) {
+std::variant<PictureSamples, std::string> read_picture(std::string_view /*bytes*/, std::size_t /*most_pixels*/) {
   return "cannot be read in the browser: `banyan validate --show toml` writes a scenario with the cells in it";
 }
 

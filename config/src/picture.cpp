@@ -14,7 +14,7 @@
 
 namespace banyan::config {
 
-std::variant<Pixels, std::string> read_picture(std::string_view bytes, std::size_t most_pixels) {
+std::variant<PictureSamples, std::string> read_picture(std::string_view bytes, std::size_t most_pixels) {
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
@@ -28,7 +28,7 @@ std::variant<Pixels, std::string> read_picture(std::string_view bytes, std::size
       stbi_load_from_memory(data, size, &width, &height, &channels, 0), stbi_image_free);
   if (!samples) return "is a damaged picture, or of a kind that cannot be read";
   const auto n = static_cast<std::size_t>(channels);
-  return Pixels{w, h, n, std::vector<std::uint8_t>(samples.get(), samples.get() + w * h * n)};
+  return PictureSamples{w, h, n, std::vector<std::uint8_t>(samples.get(), samples.get() + w * h * n)};
 }
 
 }  // namespace banyan::config

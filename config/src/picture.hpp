@@ -11,7 +11,7 @@
 
 namespace banyan::config {
 
-struct Pixels {
+struct PictureSamples {
   std::size_t width = 0, height = 0;
   std::size_t channels = 0;           // 1: grey, 2: with alpha, 3: red, green, blue, 4: with alpha
   std::vector<std::uint8_t> samples;  // from the top left, row by row, the channels of a pixel side by side
@@ -19,6 +19,6 @@ struct Pixels {
 };
 
 // PNG, BMP, or PGM and PPM of the binary kind, of at most `most_pixels`; or what is wrong with it, for messages.
-[[nodiscard]] std::variant<Pixels, std::string> read_picture(std::string_view bytes, std::size_t most_pixels);
+[[nodiscard]] std::variant<PictureSamples, std::string> read_picture(std::string_view bytes, std::size_t most_pixels);
 
 }  // namespace banyan::config
