@@ -71,8 +71,9 @@ std::string cells_of_picture(const std::string& path, const PixelReading& readin
 
 // ---- ROS ----
 
-std::string beside(const std::string& file, const std::string& path) {
-  return (std::filesystem::path(file).parent_path() / path).string();
+// Where what a file names is.
+std::string beside(const std::string& file, const std::string& name) {
+  return (std::filesystem::path(file).parent_path() / name).string();
 }
 
 MapText read_ros_map(const std::string& path, std::vector<Problem>& problems) {
@@ -83,7 +84,7 @@ MapText read_ros_map(const std::string& path, std::vector<Problem>& problems) {
   MapText map;
   PixelReading reading;
   for (const char* key : {"image", "resolution", "origin"}) table.require(key);
-  const std::string image = table.text("image");
+  const std::string picture = table.text("image");
   map.resolution_m = table.number("resolution", Range{0.0, 1e8, true});
   if (const Node* origin = table.list("origin")) {
     std::vector<double> numbers;
@@ -110,7 +111,7 @@ MapText read_ros_map(const std::string& path, std::vector<Problem>& problems) {
   table.finish();
   for (std::size_t k = 0; k < found.size(); ++k) found[k].warning = k >= faults;  // ROS reads no other keys
   problems.insert(problems.end(), found.begin(), found.end());
-  if (faults == 0) map.cells = cells_of_picture(beside(path, image), reading);
+  if (faults == 0) map.cells = cells_of_picture(beside(path, picture), reading);
   return map;
 }
 
@@ -201,7 +202,7 @@ void put_cells(Node::Table& obstacle, const std::string& key, std::vector<Proble
     problems.push_back({file.place, key, "must be the name of a file in quotes, not " + file.describe()});
   } else if (cells != obstacle.end() && cells->value.place.from_file() == file.place.from_file()) {
     problems.push_back({file.place, key, "give file or cells, not both"});
-  } else if (cells != obstacle.end() && cells->value.place.from_file() == false) {
+  } else if (cells != obstacle.end() && !cells->value.place.from_file()) {
     return;  // an option gives other cells
   } else {
     const bool relative = file.place.from_file() && std::filesystem::path(*file.string()).is_relative();

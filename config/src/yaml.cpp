@@ -55,6 +55,7 @@ std::optional<double> number_in(std::string text) {
   return world::read_decimal(text.c_str() + (text[0] == '+' ? 1 : 0));
 }
 
+// The library's nodes are unions, with their type beside them. NOLINTBEGIN(cppcoreguidelines-pro-type-union-access)
 Node scalar(const yaml_node_t& node, Place place) {
   std::string text(reinterpret_cast<const char*>(node.data.scalar.value), node.data.scalar.length);
   if (node.data.scalar.style == YAML_PLAIN_SCALAR_STYLE) {
@@ -91,6 +92,7 @@ Node to_node(yaml_document_t& document, int index, const std::shared_ptr<const s
   }
   return {std::move(members), place};
 }
+// NOLINTEND(cppcoreguidelines-pro-type-union-access)
 
 }  // namespace
 
