@@ -5,7 +5,7 @@
 FROM debian:13-slim AS build
 RUN apt-get update && apt-get install --yes --no-install-recommends \
     g++ cmake ninja-build pkgconf git ca-certificates \
-    libzstd-dev libbox2d-dev librsvg2-dev libsodium-dev libpagmo-dev libtbb-dev libboost-serialization-dev libopenmpi-dev \
+    libzstd-dev libbox2d-dev libyaml-dev librsvg2-dev libsodium-dev libpagmo-dev libtbb-dev libboost-serialization-dev libopenmpi-dev \
     && rm -rf /var/lib/apt/lists/*
 WORKDIR /banyan
 COPY . .

@@ -24,7 +24,7 @@ def instructions(words):
     """Of a whole process and its threads."""
     counted = subprocess.run(['valgrind', '--tool=callgrind', '--callgrind-out-file=/dev/null', *words], capture_output=True, text=True)
     found = re.search(r'Collected *: *(\d+)', counted.stderr)
-    if not found:
+    if not found or counted.returncode != 0:
         raise Failed(f'valgrind: {counted.stderr.strip()[-1000:]}')
     return int(found[1])
 

@@ -58,6 +58,9 @@ if(TARGET banyan_world)
   if(BANYAN_HAVE_ZSTD)
     list(APPEND pc_requires libzstd)
   endif()
+  if(BANYAN_HAVE_MAPS)
+    list(APPEND pc_requires yaml-0.1)
+  endif()
   if(BANYAN_TOML_LIBRARY)
     list(APPEND pc_requires tomlplusplus)
   endif()
@@ -73,7 +76,9 @@ if(TARGET banyan_cli)
       install(TARGETS ${program} RUNTIME COMPONENT program)
     endif()
   endforeach()
-  # Some studies name parameters that tuning found.
+  # Maps lie beside the scenarios that name them; some studies name parameters that tuning found.
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program
+          FILES_MATCHING PATTERN "*.png" PATTERN "*.yaml")
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios ${PROJECT_SOURCE_DIR}/studies ${PROJECT_SOURCE_DIR}/parameters ${PROJECT_SOURCE_DIR}/results
           DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program
           FILES_MATCHING PATTERN "*.toml")
@@ -138,6 +143,9 @@ endif()
 if(BANYAN_HAVE_ZSTD)
   list(APPEND depends libzstd-dev)
 endif()
+if(BANYAN_HAVE_MAPS)
+  list(APPEND depends libyaml-dev)
+endif()
 list(JOIN depends ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION} (development files)
  The robot's program (controller), its algorithms, the simulated world, its measures and the
@@ -172,7 +180,7 @@ if(DPKG_SHLIBDEPS AND FILE_PROGRAM)
 else()
   set(CPACK_DEBIAN_ROS2_PACKAGE_DEPENDS "libc6, libstdc++6, libsodium23, libddsc0debian")
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
-      "libc6, libstdc++6, libbox2d2, libzstd1, libtomlplusplus3, libpagmo8, libboost-serialization1.74.0, libopenmpi3, librsvg2-2, libcairo2, libcpp-httplib0.11")
+      "libc6, libstdc++6, libbox2d2, libzstd1, libyaml-0-2, libtomlplusplus3, libpagmo8, libboost-serialization1.74.0, libopenmpi3, librsvg2-2, libcairo2, libcpp-httplib0.11")
 endif()
 # The program does without, but for figures, for mpirun, for films and for the text in pictures.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-matplotlib, openmpi-bin, ffmpeg, fonts-dejavu-core, xdg-utils")

@@ -3,7 +3,7 @@
 # Everything it says goes to stderr.
 
 # The groups that are features of the program.
-banyan_features=(zstd box2d pixels fleets tuning figures mpi)
+banyan_features=(zstd box2d maps pixels fleets tuning figures mpi)
 
 # banyan_packages GROUP...: the names in those groups of packages.txt, one per line.
 banyan_packages() {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "banyan/world/faults.hpp"
+#include "maps.hpp"
 #include "scenario_reader.hpp"
 
 namespace banyan::config {
@@ -58,6 +59,7 @@ std::size_t Loaded::errors() const noexcept {
 Loaded configure(Node root, const std::string& path, const AlgorithmList& algorithms, std::vector<Problem> problems) {
   Loaded loaded{{}, std::move(problems)};
   root.place.line = 0;
+  put_maps(root, loaded.problems);
   ScenarioReader reader(loaded.problems, algorithms);
   loaded.configuration = reader.read(root);
   if (loaded.configuration.scenario.name.empty()) loaded.configuration.scenario.name = name_from(path, "scenario");

@@ -69,14 +69,33 @@ std::string lower_first(std::string text) {
   return text;
 }
 
+// The last character of the string of TOML that begins at `at`; of one that does not end, that of its line or text.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string whole(3, quote);
+  const bool lines = text.substr(at).starts_with(whole);
+  for (at += lines ? 3 : 1; at < text.size(); ++at) {
+    if (text[at] == '\\' && quote == '"') ++at;
+    else if (lines ? text.substr(at).starts_with(whole) : text[at] == quote) return at + (lines ? 2 : 0);
+    else if (!lines && text[at] == '\n') break;
+  }
+  return std::min(at, text.size());
+}
+
 // toml++ 3.3 bounds nested brackets but not dotted keys: "a.a.a..." a million times over would
 // exhaust the stack when its tables are destroyed.
 bool has_endless_key(std::string_view text) {
   int dots = 0;
-  for (const char c : text) {
-    if (c == '.') {
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (c == '"' || c == '\'') {
+      at = end_of_string(text, at);
+    } else if (c == '.') {
       if (++dots > 1000) return true;
-    } else if (c == ',' || c == '=' || c == '[' || c == ']' || c == '{' || c == '}' || c == '#' || c == '\n') {
+    } else if (c == '#') {
+      at = std::min(text.find('\n', at), text.size());
+      dots = 0;
+    } else if (c == ',' || c == '=' || c == '[' || c == ']' || c == '{' || c == '}' || c == '\n') {
       dots = 0;
     }
   }
@@ -249,7 +268,7 @@ std::string Node::describe() const {
   return std::visit(Describe{}, value);
 }
 
-std::string read_text_file(const std::string& path) {
+std::string read_file(const std::string& path, std::size_t most) {
   const Place place{shared(path == "-" ? "standard input" : path), 0};
   const int fd = path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0) {
@@ -270,8 +289,14 @@ std::string read_text_file(const std::string& path) {
     if (got < 0) fail(place, std::string("cannot be read: ") + std::strerror(errno));
     if (got == 0) break;
     text.append(buffer.data(), static_cast<std::size_t>(got));
-    if (text.size() > largest_file) fail(place, "is larger than 8 MiB: this is no scenario");
+    if (text.size() > most) fail(place, "is larger than " + std::to_string(most >> 20) + " MiB");
   }
+  return text;
+}
+
+std::string read_text_file(const std::string& path) {
+  const Place place{shared(path == "-" ? "standard input" : path), 0};
+  std::string text = read_file(path, largest_file);
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // byte order mark
   if (text.find('\0') != std::string::npos) fail(place, "is a binary file; a scenario is text (TOML or JSON)");
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)

@@ -368,6 +368,8 @@ Value ScenarioReader::read_value(const Node& node, const std::string& path, cons
   if (!text) report(node.place, path, "must be text in quotes, not " + node.describe());
   else if (key.path == "name" && !good_name(*text))
     report(node.place, path, "is " + in_quotes(*text) + "; allowed: " + std::string(name_rule));
+  else if (const auto fault = key.terms.text_fault == nullptr ? std::nullopt : key.terms.text_fault(*text))
+    report(node.place, path, *fault);
   else return *text;
   return {};
 }

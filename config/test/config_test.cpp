@@ -473,6 +473,7 @@ RC_GTEST_PROP(ConfigProperty, NoTextWhateverIsTooMuch, ()) {
 TEST(Scenarios, AllAreValidWithoutAWarning) {
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(BANYAN_SCENARIOS)) {
+    if (entry.path().extension() != ".toml") continue;  // a map
     ++count;
     const auto loaded = load_configuration(entry.path().string(), algorithms());
     EXPECT_TRUE(loaded.problems.empty()) << all_problems(loaded);

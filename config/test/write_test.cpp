@@ -64,9 +64,16 @@ template <class Owner> rc::Gen<json> value_of(const world::Key<Owner>& key) {
   if (key.path == "name")
     return rc::gen::map(rc::gen::nonEmpty(rc::gen::container<std::string>(rc::gen::inRange('a', 'z'))),
                         [](const std::string& s) { return json(s.substr(0, 100)); });
+  if (key.path == "obstacles.cells")
+    return rc::gen::map(
+        rc::gen::nonEmpty(rc::gen::container<std::vector<std::uint8_t>>(rc::gen::inRange(0, 2))),
+        [](const std::vector<std::uint8_t>& cells) { return json(world::CellGrid(cells.size(), 1, cells).text()); });
   return rc::gen::map(rc::gen::container<std::string>(rc::gen::inRange(' ', '\x7f')),
                       [](const std::string& s) { return json(s + "\t\"\\"); });
 }
+
+// What is written is what the file has.
+bool names_a_file(std::string_view path) { return path == "map" || path == "obstacles.file"; }
 
 // The keys of a section that have a meaning together, with random values.
 template <class Owner> json random_section(const world::Section& section, std::span<const world::Key<Owner>> keys) {
@@ -77,7 +84,7 @@ template <class Owner> json random_section(const world::Section& section, std::s
       choice = (table[std::string(key.name())] = *value_of(key)).template get<std::string>();
   }
   for (const auto& key : keys) {
-    if (key.section() != section.path || key.name() == section.selector) continue;
+    if (key.section() != section.path || key.name() == section.selector || names_a_file(key.path)) continue;
     const auto with = applies_with(key, keys);
     const bool conditional = !with.empty() && key.terms.selector.empty();
     if (!conditional || std::find(with.begin(), with.end(), choice) != with.end())

@@ -13,6 +13,7 @@
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/record/palette.hpp"
 #include "banyan/record/recording.hpp"
+#include "banyan/world/obstacles.hpp"
 #include "text.hpp"
 
 namespace banyan::record {
@@ -57,6 +58,12 @@ std::array<Vec2, 4> corners(const world::Box& box) {
           box.center + rotate(turn, Vec2{-h.x, -h.y}), box.center + rotate(turn, Vec2{h.x, -h.y})};
 }
 
+std::array<Vec2, 4> corners(const world::FloorMap& map) {
+  const world::CellFrame frame(map);
+  const auto w = static_cast<double>(map.cells->columns()), h = static_cast<double>(map.cells->rows());
+  return {frame.in_metres({0.0, 0.0}), frame.in_metres({w, 0.0}), frame.in_metres({w, h}), frame.in_metres({0.0, h})};
+}
+
 PictureExtent extent_of(const Setting& setting, const Frame& frame, const Trails& trails) {
   PictureExtent extent;
   for (const RobotFrame& robot : frame.robots) extent.add(robot.position, setting.radius_m);
@@ -69,6 +76,8 @@ PictureExtent extent_of(const Setting& setting, const Frame& frame, const Trails
       for (const Vec2 corner : corners(*box)) extent.add(corner);
     if (const auto* wall = std::get_if<world::Wall>(&obstacle))
       for (const Vec2 end : {wall->from, wall->to}) extent.add(end);
+    if (const auto* map = std::get_if<world::FloorMap>(&obstacle))
+      for (const Vec2 corner : corners(*map)) extent.add(corner);
   }
   extent.at_least(setting.range_m);
   return extent;
@@ -222,6 +231,7 @@ class Picture {
   void title();
   void scale_bar();
   void obstacles();
+  void cells(const world::FloorMap& map);
   void radio();
   void trails();
   void target(Vec2 at, double radius);
@@ -390,8 +400,23 @@ void Picture::obstacles() {
       polyline(corners(*box), "Z\"/>\n");
     } else if (const auto* wall = std::get_if<world::Wall>(&obstacle)) {
       lines({theme_.obstacle, 4.0, round_ends}, {{wall->from, wall->to}}, 1);
+    } else if (const auto* map = std::get_if<world::FloorMap>(&obstacle)) {
+      cells(*map);
     }
   }
+}
+
+// Rectangles as large as runs of equal rows are, in one path. Without smoothed edges, which would leave seams.
+void Picture::cells(const world::FloorMap& map) {
+  const world::CellFrame frame(map);
+  out_.add("<path fill=\"", theme_.obstacle, "\" shape-rendering=\"crispEdges\" d=\"");
+  map.cells->each_block([&](Vec2 low, Vec2 high) {
+    const std::array<Vec2, 4> block{frame.in_metres(low), frame.in_metres({high.x, low.y}), frame.in_metres(high),
+                                    frame.in_metres({low.x, high.y})};
+    for (std::size_t k = 0; k < block.size(); ++k) out_.add(k == 0 ? "M" : "L", screen(block[k]));
+    out_.add("Z");
+  });
+  out_.add("\"/>\n");
 }
 
 void Picture::radio() {

@@ -83,6 +83,7 @@ std::uint64_t export_bag(Recording& recording, const std::string& path, Existing
   const auto transforms = ros2::add_channel(bag, ros2::transforms_topic, ros2::transforms_type());
   const auto log = ros2::add_channel(bag, ros2::log_topic, ros2::log_type());
   ros2::CdrWriter cdr;
+  ros2::MapTopics maps;
   std::uint64_t messages = 0;
   const auto put = [&](std::uint16_t channel, const ros2::Stamp& stamp) {
     bag.message(channel, stamp.nanoseconds, cdr.view());
@@ -103,6 +104,7 @@ std::uint64_t export_bag(Recording& recording, const std::string& path, Existing
         tell_until(frame.time_s);
         const ros2::Stamp stamp{.nanoseconds = nanoseconds(frame.time_s)};
         const Setting& setting = recording.setting_at(frame.time_s);
+        messages += maps.write(bag, cdr, stamp, setting);
         const RadioLinks links = radio_links(setting, frame);
         write_markers(cdr, stamp, setting, frame, &links);
         put(markers, stamp);

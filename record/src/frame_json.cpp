@@ -198,6 +198,17 @@ struct ObstacleWriter {
     write_point(out, "to_m", wall.to);
     out.put('}');
   }
+  void operator()(const world::FloorMap& map) const {
+    out.put("{\"map\":true,");
+    write_point(out, "origin_m", map.origin);
+    out.put(",\"resolution_m\":");
+    out.shortest(map.cell_m);
+    out.put(",\"angle_rad\":");
+    out.shortest(map.angle_rad);
+    out.put(",\"cells\":");
+    out.json_string(map.cells->text());
+    out.put('}');
+  }
 };
 
 Vec2 point_of(const json& object, std::string_view name) {
@@ -213,6 +224,16 @@ world::Obstacle read_obstacle(const json& o) {
     return world::Box{point_of(o, "center_m"), point_of(o, "size_m"), number_of(o, "angle_rad", -far, far)};
   }
   if (o.contains("wall")) return world::Wall{point_of(o, "from_m"), point_of(o, "to_m")};
+  if (o.contains("map")) {
+    world::FloorMap map;
+    map.cell_m = number_of(o, "resolution_m", 1e-9, far);
+    map.origin = point_of(o, "origin_m");
+    map.angle_rad = number_of(o, "angle_rad", -far, far);
+    const std::string text = text_of(o, "cells");
+    if (world::CellGrid::text_fault(text)) fail("obstacles", "holds a map whose cells are none");
+    map.cells = std::make_shared<const world::CellGrid>(world::CellGrid::from_text(text));
+    return map;
+  }
   fail("obstacles", "holds something unknown");
 }
 
@@ -564,7 +585,7 @@ std::string setting_schema() {
   schema_property(out, "target_tolerance_m", "number", "distance at which a target is reached");
   schema_property(out, "time_limit_s", "number", "of the mission");
   schema_array(out, "names", "string", "of robots, in their order; left out where they have numbers alone");
-  schema_array(out, "obstacles", "object", "discs, boxes and walls");
+  schema_array(out, "obstacles", "object", "discs, boxes, walls and maps");
   out.put("}}");
   return std::string(out.view());
 }

@@ -51,6 +51,7 @@ struct Recorder::Impl {
   std::chrono::steady_clock::time_point next_live;  // long ago: the start is seen at once
   MessageNumbers last_messages;                     // of now's world; empty: none
   std::vector<TargetFrame> last_targets;
+  ros2::MapTopics maps;
 
   void add_channels();
   void add_messages_channel();
@@ -101,6 +102,7 @@ void Recorder::Impl::look_at(const Setting& current) {
   if (!started) mcap.metadata({"banyan.setting", {{"json", std::string(text.view())}}});
   put(settings);
   started = true;
+  if (options.scene_period_s > 0.0) maps.write(mcap, cdr, stamp(), setting, large);
 }
 
 void Recorder::Impl::put_frame() {

@@ -71,6 +71,18 @@ string function
 uint32 line
 )";
 
+constexpr std::string_view map_definition = R"(std_msgs/Header header
+nav_msgs/MapMetaData info
+int8[] data
+)";
+
+constexpr std::string_view map_info_definition = R"(builtin_interfaces/Time map_load_time
+float32 resolution
+uint32 width
+uint32 height
+geometry_msgs/Pose origin
+)";
+
 struct Definition {
   std::string_view name, definition;
 };
@@ -91,6 +103,7 @@ constexpr Definition marker_part{"visualization_msgs/Marker", marker_definition}
 constexpr Definition texture_part{"sensor_msgs/CompressedImage",
                                   "std_msgs/Header header\nstring format\nuint8[] data\n"};
 constexpr Definition corner_part{"visualization_msgs/UVCoordinate", "float32 u\nfloat32 v\n"};
+constexpr Definition map_info_part{"nav_msgs/MapMetaData", map_info_definition};
 constexpr Definition mesh_part{"visualization_msgs/MeshFile", "string filename\nuint8[] data\n"};
 
 std::string with_parts(std::string_view definition, std::initializer_list<Definition> parts) {
@@ -368,9 +381,13 @@ MarkerLooks looks_of(const world::Wall& wall, const Dimensions& size) {
   return looks;
 }
 
+// A grid of its own: write_map().
+MarkerLooks looks_of(const world::FloorMap& /*map*/, const Dimensions& /*size*/) { return {}; }
+
 void mark_obstacles(MarkerWriter& markers, const Setting& setting) {
   const Dimensions size(setting);
   for (std::size_t k = 0; k < setting.obstacles.size(); ++k) {
+    if (std::holds_alternative<world::FloorMap>(setting.obstacles[k])) continue;
     MarkerLooks looks =
         std::visit([&](const auto& obstacle) { return looks_of(obstacle, size); }, setting.obstacles[k]);
     looks.layer = "obstacles";
@@ -439,6 +456,11 @@ MessageType transforms_type() {
                      {stamped_part, header_part, time_part, transform_part, vector_part, quaternion_part})};
 }
 
+MessageType map_type() {
+  return {"nav_msgs/msg/OccupancyGrid",
+          with_parts(map_definition, {header_part, time_part, map_info_part, pose_part, point_part, quaternion_part})};
+}
+
 MessageType log_type() { return {"rcl_interfaces/msg/Log", with_parts(log_definition, {time_part})}; }
 
 std::uint16_t add_channel(mcap::Writer& file, std::string_view topic, MessageType type, mcap::ChunkGroup group) {
@@ -471,6 +493,45 @@ void write_markers(CdrWriter& out, const Stamp& stamp, const Setting& setting, c
   mark_targets(markers, setting, frame);
   mark_obstacles(markers, setting);
   markers.finish();
+}
+
+void write_map(CdrWriter& out, const Stamp& stamp, const world::FloorMap& map) {
+  constexpr std::uint8_t free = 0, occupied = 100;
+  const world::CellGrid& cells = *map.cells;
+  out.clear();
+  put_header(out, stamp);
+  out.time(stamp.nanoseconds);
+  out.real(static_cast<float>(map.cell_m));
+  out.natural(static_cast<std::uint32_t>(cells.columns()));
+  out.natural(static_cast<std::uint32_t>(cells.rows()));
+  put_xyz(out, map.origin.x, map.origin.y, 0.0);
+  put_turn(out, map.angle_rad);
+  out.natural(static_cast<std::uint32_t>(cells.columns() * cells.rows()));
+  for (std::size_t row = 0; row < cells.rows(); ++row)
+    for (std::size_t column = 0; column < cells.columns(); ++column)
+      out.octet(cells.occupied(static_cast<std::int64_t>(column), static_cast<std::int64_t>(row)) ? occupied : free);
+}
+
+std::uint64_t MapTopics::write(mcap::Writer& file, CdrWriter& out, const Stamp& stamp, const Setting& setting,
+                               mcap::ChunkGroup group) {
+  std::uint64_t messages = 0;
+  std::size_t index = 0;
+  for (const world::Obstacle& obstacle : setting.obstacles) {
+    const auto* map = std::get_if<world::FloorMap>(&obstacle);
+    if (map == nullptr) continue;
+    const std::size_t k = index++;
+    if (k == channels_.size()) {
+      const std::string topic = std::string(map_topic) + (k == 0 ? "" : "_" + std::to_string(k + 1));
+      channels_.push_back(add_channel(file, topic, map_type(), group));
+      last_.emplace_back();
+    }
+    if (last_[k] == *map) continue;
+    last_[k] = *map;
+    write_map(out, stamp, *map);
+    file.message(channels_[k], stamp.nanoseconds, out.view());
+    ++messages;
+  }
+  return messages;
 }
 
 void write_odometry(CdrWriter& out, const Stamp& stamp, std::size_t robot, const RobotFrame& now,

@@ -43,6 +43,21 @@ std::size_t count(std::string_view text, std::string_view what) {
   return n;
 }
 
+TEST(Draw, AMapIsOnePathOfFewRectangles) {
+  Setting setting = test::sample_setting();
+  world::FloorMap map;
+  map.cell_m = 0.05;
+  map.origin = {-2.0, -2.0};
+  map.cells = std::make_shared<const world::CellGrid>(world::CellGrid::from_text("2*200#\n196*2#196.2#\n2*200#"));
+  setting.obstacles = {map};
+  const std::string svg = draw_svg(setting, test::sample_frame(9, 1.0, 30), {}, {});
+  EXPECT_TRUE(well_formed(svg));
+  const auto from = svg.find("crispEdges");
+  ASSERT_NE(from, std::string::npos);
+  EXPECT_EQ(svg.find("crispEdges", from + 1), std::string::npos);
+  EXPECT_EQ(count(svg.substr(from, svg.find('\n', from) - from), "Z"), 4U) << "of 1,584 cells";
+}
+
 TEST(Draw, ShowsEveryRobotTargetAndTheProvenance) {
   Setting setting = test::sample_setting();
   for (const std::size_t n : {9U, 94U, 1000U}) {

@@ -74,6 +74,7 @@ class Decoder {
     if (type == "int32") return static_cast<std::int32_t>(number(4));
     if (type == "uint32") return number(4);
     if (type == "uint8" || type == "bool") return number(1);
+    if (type == "int8") return static_cast<std::int8_t>(number(1));
     return structure(type);
   }
   std::uint64_t number(std::size_t size) {
@@ -272,6 +273,28 @@ TEST(Ros2Messages, AWallStandsBetweenItsEnds) {
   EXPECT_NEAR(2.0 * std::atan2(z, w), std::atan2(4.0, 3.0), 1e-4);
 }
 
+world::FloorMap sample_map(const char* cells) {
+  world::FloorMap map;
+  map.cell_m = 0.25;
+  map.origin = {-1.0, 2.0};
+  map.angle_rad = 0.5;
+  map.cells = std::make_shared<const world::CellGrid>(world::CellGrid::from_text(cells));
+  return map;
+}
+
+TEST(Ros2Messages, AMapHasItsLowestRowFirst) {
+  ros2::CdrWriter out;
+  write_map(out, {.nanoseconds = 2500000000}, sample_map("#..\n.##"));
+  const json map = Decoder(ros2::map_type()).decode(out.view());
+  EXPECT_EQ(map["header"]["frame_id"], "map");
+  EXPECT_EQ(map["info"]["resolution"], 0.25F);
+  EXPECT_EQ(map["info"]["width"], 3);
+  EXPECT_EQ(map["info"]["height"], 2);
+  EXPECT_EQ(map["info"]["origin"]["position"]["y"], 2.0);
+  EXPECT_NEAR(map["info"]["origin"]["orientation"]["z"].get<double>(), std::sin(0.25), 1e-4);
+  EXPECT_EQ(map["data"], (json{0, 100, 100, 100, 0, 0}));
+}
+
 // RViz complains of a list without points.
 TEST(Ros2Messages, ListsWithoutPointsAreNoMarkers) {
   EXPECT_EQ(markers_of({}, {}).size(), 1U);
@@ -354,6 +377,33 @@ TEST(Bag, ObstaclesAreWhereTheyWereAtThatTime) {
     return true;
   });
   EXPECT_EQ(obstacles, (std::vector<std::size_t>{3, 3, 2, 2}));
+}
+
+TEST(Bag, AMapIsThereOnceAndAgainWhenItHasMoved) {
+  const test::TemporaryDirectory directory;
+  Setting setting = test::sample_setting();
+  setting.obstacles.emplace_back(sample_map("3*#8.#"));
+  {
+    Recorder recorder(directory.file("a.mcap"), test::sample_provenance());
+    for (std::uint64_t t = 0; t < 6; ++t) {
+      if (t == 3) std::get<world::FloorMap>(setting.obstacles.back()).origin.x += 1.0;
+      const Frame frame = test::sample_frame(5, 3.0, t);
+      recorder.frame(setting, frame, test::sample_tick(frame));
+    }
+    recorder.finish(test::sample_run(6));
+  }
+  Recording recording(directory.file("a.mcap"));
+  EXPECT_EQ(recording.setting_at(9.0).obstacles, setting.obstacles) << "the cells, too";
+  (void)export_bag(recording, directory.file("bag.mcap"));
+  for (const char* file : {"a.mcap", "bag.mcap"}) {
+    mcap::Reader reader(directory.file(file));
+    std::vector<double> x;
+    reader.messages(reader.find_channel("/map")->id, [&](const mcap::LoggedMessage& message) {
+      x.push_back(Decoder(ros2::map_type()).decode(message.data)["info"]["origin"]["position"]["x"]);
+      return true;
+    });
+    EXPECT_EQ(x, (std::vector<double>{-1.0, 0.0})) << file;
+  }
 }
 
 TEST(Bag, IsMadeOfARecordingThatWasCutShort) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One instant of a run, as recorded (docs/file-formats.md) and as the live simulation hands it out:
 // a matrix with a column per quantity and a row per robot, in the order of the robots' indices.
+import type { Cells } from './cells';
 
 /** The arrays of a /banyan/frame message, in this order (record/src/frame_json.cpp). */
 export const columns = [
@@ -43,7 +44,8 @@ export type Point = [number, number]; // m
 export type Obstacle =
   | { disc: true; center_m: Point; radius_m: number }
   | { box: true; center_m: Point; size_m: Point; angle_rad: number }
-  | { wall: true; from_m: Point; to_m: Point };
+  | { wall: true; from_m: Point; to_m: Point }
+  | { map: true; origin_m: Point; resolution_m: number; angle_rad: number; cells: Cells };
 
 /** What a picture needs beside a frame: the JSON of `banyan.setting`. Changes when an obstacle is moved
  *  or line of sight is switched. */

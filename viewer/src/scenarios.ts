@@ -14,6 +14,10 @@ const nameOf = (path: string) => path.replace(/^.*\//, '').replace(/\.toml$/, ''
 export const aboutOf = (text: string): string =>
   /^\s*(?:description\s*=|"description"\s*:)\s*"((?:[^"\\]|\\.)*)"/m.exec(text)?.[1].replaceAll('\\"', '"') ?? '';
 
+/** A map in a file of its own is out of the page's reach. */
+export const needsFiles = (text: string): boolean => /^\s*(?:map|file)\s*=/m.test(text);
+
 export const scenarios: Scenario[] = Object.entries(files)
+  .filter(([, text]) => !needsFiles(text))
   .map(([path, text]) => ({ name: nameOf(path), text, about: aboutOf(text) }))
   .sort((a, b) => a.name.localeCompare(b.name, 'en'));

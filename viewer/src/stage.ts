@@ -11,6 +11,7 @@ import type { Facts } from './scene/facts';
 import { Input, type Mode } from './scene/input';
 import { gripAt, itemAt, pointerReachPx, robotsIn, touchReachPx } from './scene/picking';
 import { Scene } from './scene/picture';
+import { centerOf } from './scene/sight';
 import type { Theme } from './scene/themes';
 import { sameItem, type Item, type SceneView, type Switches } from './scene/view';
 import type { Source } from './source/client';
@@ -418,6 +419,6 @@ function positionOf({ kind, index }: Item, frame: Frame, setting: Setting): Spot
   if (kind === 'target') return index < frame.targets.x.length ? { x: frame.targets.x[index], y: frame.targets.y[index] } : null;
   const obstacle = setting.obstacles[index];
   if (obstacle === undefined) return null;
-  if (!('wall' in obstacle)) return { x: obstacle.center_m[0], y: obstacle.center_m[1] };
-  return { x: (obstacle.from_m[0] + obstacle.to_m[0]) / 2, y: (obstacle.from_m[1] + obstacle.to_m[1]) / 2 };
+  const [x, y] = centerOf(obstacle);
+  return { x, y };
 }

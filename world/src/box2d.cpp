@@ -17,9 +17,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <tuple>
+#include <vector>
 
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/world/bodies.hpp"
+#include "banyan/world/obstacles.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/wheels.hpp"
 
@@ -65,6 +68,45 @@ struct AddFixture {
     shape.SetTwoSided(to_box2d(wall.from), to_box2d(wall.to));
     fix(shape);
   }
+  void operator()(const FloorMap& /*map*/) const {}  // only what is near robots: Outline
+};
+
+// The edge of a map's occupied area near robots, as straight pieces as long as they are there: a robot that slides
+// along a wall would catch on seams.
+class Outline {
+ public:
+  explicit Outline(const CellGrid& cells) : cells_{cells} {}
+  // Everything no farther from p than `reach`, in cells.
+  void add_near(Vec2 p, double reach) {
+    if (cells_.least_clearance(p) > reach) return;
+    const auto from = [reach](double x) { return static_cast<std::int64_t>(std::floor(x - reach)); };
+    const auto to = [reach](double x) { return static_cast<std::int64_t>(std::floor(x + reach)); };
+    for (std::int64_t row = from(p.y); row <= to(p.y); ++row)
+      for (std::int64_t column = from(p.x); column <= to(p.x); ++column) {
+        const bool here = cells_.occupied(column, row);
+        if (here != cells_.occupied(column - 1, row)) sides_.push_back({true, column, row});
+        if (here != cells_.occupied(column, row - 1)) sides_.push_back({false, row, column});
+      }
+  }
+  // piece(from, to) for each, in cells.
+  template <class Piece> void each_piece(const Piece& piece) {
+    std::sort(sides_.begin(), sides_.end());
+    sides_.erase(std::unique(sides_.begin(), sides_.end()), sides_.end());
+    for (std::size_t first = 0, next = 0; first < sides_.size(); first = next) {
+      const auto [upright, line, begin] = sides_[first];
+      std::int64_t end = begin;
+      for (next = first; next < sides_.size() && sides_[next] == Side{upright, line, end}; ++next) ++end;
+      const auto across = static_cast<double>(line), a = static_cast<double>(begin), b = static_cast<double>(end);
+      if (upright) piece(Vec2{across, a}, Vec2{across, b});
+      else piece(Vec2{a, across}, Vec2{b, across});
+    }
+  }
+
+ private:
+  // Of a cell: upright or level, on which line, and where along it.
+  using Side = std::tuple<bool, std::int64_t, std::int64_t>;
+  const CellGrid& cells_;
+  std::vector<Side> sides_;
 };
 
 // Beside the poses: velocities, in Box2D's units. The heading is a unit vector carried by turn
@@ -154,7 +196,11 @@ class Box2d final : public Bodies {
     world.SetAllowSleeping(false);
     world.SetContinuousPhysics(false);  // 2 mm a sub-step cannot jump over anything
     b2BodyDef ground;
-    for (const Obstacle& obstacle : obstacles_) std::visit(AddFixture{*world.CreateBody(&ground)}, obstacle);
+    for (const Obstacle& obstacle : obstacles_) {
+      b2Body& body = *world.CreateBody(&ground);
+      std::visit(AddFixture{body}, obstacle);
+      if (const auto* map = std::get_if<FloorMap>(&obstacle)) add_outline(body, *map, poses);
+    }
     b2CircleShape disc;
     disc.m_radius = static_cast<float>(robot_.radius_m * scale);
     b2FixtureDef fixture;
@@ -172,6 +218,19 @@ class Box2d final : public Bodies {
       body_[i]->CreateFixture(&fixture);
       body_[i]->SetMassData(&mass_);
     }
+  }
+
+  void add_outline(b2Body& ground, const FloorMap& map, const Poses& poses) const {
+    const CellFrame frame(map);
+    const double reach_m = 1.5 * robot_.radius_m + 2.0 * robot_.wheel_limit_m_s * h_ * substeps_;
+    Outline outline(*map.cells);
+    for (std::size_t i = 0; i < body_.size(); ++i)
+      if (gone_[i] == 0) outline.add_near(frame.in_cells(poses.position[i]), reach_m / map.cell_m);
+    outline.each_piece([&](Vec2 from, Vec2 to) {
+      b2EdgeShape shape;
+      shape.SetTwoSided(to_box2d(frame.in_metres(from)), to_box2d(frame.in_metres(to)));
+      AddFixture{ground}.fix(shape);
+    });
   }
 
   // Wheels push the body towards the commanded velocity, against sideways slip, too, as hard as they can.

@@ -84,8 +84,8 @@ class CheckEventFits {
     if (join.robot >= before_.places)
       list_.fail(key_ + ".robot", "there is no place for another robot; there are " + std::to_string(before_.places));
     const double room_m = clearance(before_.obstacles, join.position);
-    check_target_room(list_, scenario_, room_m < scenario_.robot.radius_m ? 0.0 : room_m, key_ + ".position_m",
-                      "the robot that joins", join.position);
+    check_target_room(list_, scenario_, before_.obstacles, room_m < scenario_.robot.radius_m ? 0.0 : room_m,
+                      key_ + ".position_m", "the robot that joins", join.position);
   }
   template <class Other> void operator()(const Other& refers_to_nothing) const { static_cast<void>(refers_to_nothing); }
 
@@ -113,7 +113,8 @@ class CheckEventFits {
     return i < count;
   }
   void room(Vec2 p) const {
-    check_target_room(list_, scenario_, clearance(before_.obstacles, p), key_ + ".position_m", "the target", p);
+    check_target_room(list_, scenario_, before_.obstacles, clearance(before_.obstacles, p), key_ + ".position_m",
+                      "the target", p);
   }
 
   FaultList& list_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
+#include <functional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,10 +39,13 @@ class FaultList {
   [[nodiscard]] bool failed() const noexcept {
     return std::any_of(list_.begin(), list_.end(), [](const Fault& f) { return !f.warning; });
   }
+  // Where else there is room is looked for as often as anybody reads it.
+  [[nodiscard]] bool may_search() noexcept { return searches_left_-- > 0; }
   [[nodiscard]] std::vector<Fault> take() { return std::move(list_); }
 
  private:
   std::vector<Fault> list_;
+  int searches_left_ = 10;
 };
 
 // Every value of every event, on its own.
@@ -51,8 +56,15 @@ bool check_events_fit(FaultList& list, const Scenario& scenario, std::size_t tar
 // Checks that the body model can represent this obstacle.
 void check_obstacle_body(FaultList& list, const Scenario& scenario, const std::string& key, const Obstacle& obstacle);
 // Checks that a robot can get near enough to a target at p, named as in a fault, with key `key`. `room`: its distance
-// to the nearest obstacle, or a robot's radius if that is less.
-void check_target_room(FaultList& list, const Scenario& scenario, double room, const std::string& key,
-                       const std::string& name, Vec2 p);
+// to the nearest of the obstacles, or a robot's radius if that is less.
+void check_target_room(FaultList& list, const Scenario& scenario, std::span<const Obstacle> obstacles, double room,
+                       const std::string& key, const std::string& name, Vec2 p);
+// "; the nearest free place is (1, 2)": the nearest to p that is so far from the obstacles. Nothing if none is near.
+[[nodiscard]] std::string free_place_text(FaultList& list, std::span<const Obstacle> obstacles, Vec2 p, double room_m);
+// Checks that a map has cells, some of them free.
+void check_map(FaultList& list, const std::string& key, const FloorMap& map);
+// Checks that robots can drive to all targets, given and named as there, and to all rooms of the maps.
+void check_ways(FaultList& list, const Scenario& scenario, std::span<const Vec2> targets,
+                const std::function<std::string(std::size_t)>& key_of);
 
 }  // namespace banyan::world

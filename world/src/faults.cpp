@@ -225,6 +225,7 @@ void check_values(FaultList& list, const Scenario& scenario) {
     const Wall* wall = std::get_if<Wall>(&scenario.obstacles[i]);
     if (wall != nullptr && wall->from == wall->to)
       list.fail(element("obstacles", i) + ".to_m", "must differ from the wall's other end");
+    if (const auto* map = std::get_if<FloorMap>(&scenario.obstacles[i])) check_map(list, element("obstacles", i), *map);
   }
   check_station_values(list, scenario);
   check_event_values(list, scenario.events);
@@ -384,14 +385,6 @@ std::string far_text(const Scenario& scenario, Vec2 p) {
 struct Breadth {
   double from, to;  // along x
 };
-Breadth breadth_of(const Disc& disc) noexcept { return {disc.center.x - disc.radius_m, disc.center.x + disc.radius_m}; }
-Breadth breadth_of(const Box& box) noexcept {
-  const double half = 0.5 * norm(box.size);  // however it is turned
-  return {box.center.x - half, box.center.x + half};
-}
-Breadth breadth_of(const Wall& wall) noexcept {
-  return {std::min(wall.from.x, wall.to.x), std::max(wall.from.x, wall.to.x)};
-}
 
 // Each point's distance to the nearest obstacle, `reach` if none is nearer than that, none above 0 inside one. By a
 // sweep along x: of thousands of points and thousands of obstacles, all pairs would be too many.
@@ -401,7 +394,8 @@ std::vector<double> rooms(const std::vector<Obstacle>& obstacles, const std::vec
   const double margin = reach * (1.0 + 1e-9);  // an end may be rounded
   std::vector<Breadth> breadth(obstacles.size());
   for (std::size_t k = 0; k < obstacles.size(); ++k) {
-    breadth[k] = std::visit([](const auto& obstacle) { return breadth_of(obstacle); }, obstacles[k]);
+    const Disc disc = enclosing(obstacles[k]);  // however it is turned
+    breadth[k] = {disc.center.x - disc.radius_m, disc.center.x + disc.radius_m};
     breadth[k].from -= margin + 1e-9 * std::abs(breadth[k].from);
     breadth[k].to += margin + 1e-9 * std::abs(breadth[k].to);
   }
@@ -449,7 +443,9 @@ void check_listed_cluster(FaultList& list, const Scenario& scenario) {
   const std::vector<double> room = rooms(scenario.obstacles, p, scenario.robot.radius_m);
   for (std::size_t i = 0; i < p.size(); ++i)
     if (room[i] < scenario.robot.radius_m)
-      list.fail(element("swarm.start.positions_m", i), "a robot at " + at(p[i]) + " touches an obstacle");
+      list.fail(element("swarm.start.positions_m", i),
+                "a robot at " + at(p[i]) + " touches an obstacle" +
+                    free_place_text(list, scenario.obstacles, p[i], scenario.robot.radius_m));
 }
 
 // Neighbours of the layout have room beside each other and are linked.
@@ -491,7 +487,9 @@ void check_placed(FaultList& list, const Scenario& scenario) {
   if (p.empty() && start.layout != Layout::ring && start.layout != Layout::bridge)
     return list.fail("swarm.start.center_m", "there is no room for a robot at " + at(start.center) +
                                                  ": an obstacle is closer than robot.radius_m" +
-                                                 (start.layout == Layout::random ? "" : " + swarm.start.jitter_m"));
+                                                 (start.layout == Layout::random ? "" : " + swarm.start.jitter_m") +
+                                                 free_place_text(list, scenario.obstacles, start.center,
+                                                                 scenario.robot.radius_m + start_jitter_m(scenario)));
   if (p.size() < free_robot_count(scenario))
     return list.fail("swarm.start", "only " + std::to_string(p.size()) + " of " +
                                         std::to_string(free_robot_count(scenario)) +
@@ -593,13 +591,18 @@ void check_targets_fit(FaultList& list, const Scenario& scenario) {
   const std::size_t missions = mission_targets(scenario).size();
   const std::vector<double> room = rooms(scenario.obstacles, targets, scenario.robot.radius_m);
   for (std::size_t i = 0; i < targets.size(); ++i)
-    check_target_room(list, scenario, room[i], target_key(scenario, missions, i), "target " + std::to_string(i),
-                      targets[i]);
+    check_target_room(list, scenario, scenario.obstacles, room[i], target_key(scenario, missions, i),
+                      "target " + std::to_string(i), targets[i]);
   const std::vector<Vec2> visits = scenario.visits.places();
   const std::vector<double> around = rooms(scenario.obstacles, visits, scenario.robot.radius_m);
+  const auto visit_key = [](std::size_t i) { return element("visits.positions_m", i); };
   for (std::size_t i = 0; i < visits.size(); ++i)
-    check_target_room(list, scenario, around[i], element("visits.positions_m", i), "place " + std::to_string(i),
+    check_target_room(list, scenario, scenario.obstacles, around[i], visit_key(i), "place " + std::to_string(i),
                       visits[i]);
+  if (!list.failed()) {
+    check_ways(list, scenario, targets, [&](std::size_t i) { return target_key(scenario, missions, i); });
+    check_ways(list, scenario, visits, visit_key);
+  }
   if (!check_events_fit(list, scenario, targets.size(), robots)) return;
   const std::size_t needed = least_robots(targets, target_tolerance_m(scenario), scenario.radio.range_m);
   if (needed > robot_count(scenario))
@@ -629,15 +632,17 @@ void check_obstacle_body(FaultList& list, const Scenario& scenario, const std::s
                        " both sides must be at least " + short_text(least_m) + " m; a wall has no thickness");
 }
 
-void check_target_room(FaultList& list, const Scenario& scenario, double room, const std::string& key,
-                       const std::string& name, Vec2 p) {
+void check_target_room(FaultList& list, const Scenario& scenario, std::span<const Obstacle> obstacles, double room,
+                       const std::string& key, const std::string& name, Vec2 p) {
+  const auto elsewhere = [&] { return free_place_text(list, obstacles, p, scenario.robot.radius_m); };
   if (const std::string text = far_text(scenario, p); !text.empty())
     list.fail(key, name + " at " + at(p) + " is " + text);
   if (room <= 0.0) {
-    list.fail(key, name + " at " + at(p) + " lies inside an obstacle");
+    list.fail(key, name + " at " + at(p) + " lies inside an obstacle" + elsewhere());
   } else if (room + target_tolerance_m(scenario) < scenario.robot.radius_m) {
     list.fail(key, name + " at " + at(p) + " is so close to an obstacle that no robot of radius " +
-                       short_text(scenario.robot.radius_m) + " m gets within mission.target_tolerance_m of it");
+                       short_text(scenario.robot.radius_m) + " m gets within mission.target_tolerance_m of it" +
+                       elsewhere());
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Discs, boxes and walls. Every function works in the obstacle's own frame and uses + - * / and
+// Discs, boxes, walls and maps. Every function works in the obstacle's own frame and uses + - * / and
 // sqrt only, so results are the same on every machine.
 #include "banyan/world/obstacles.hpp"
 
@@ -156,7 +156,38 @@ Vec2 push_out_of(const Wall& wall, Vec2 p, double radius) noexcept {
   return push_from(nearest_on_segment(wall.from, wall.to, p), p, radius, normal);
 }
 
+// ---- Maps: what their cells say, in metres ----
+
+bool blocks_ordered(const FloorMap& map, Vec2 a, Vec2 b) noexcept {
+  const CellFrame frame(map);
+  return map.cells->blocks(frame.in_cells(a), frame.in_cells(b));
+}
+double gap_of(const FloorMap& map, Vec2 a, Vec2 b) noexcept {
+  const CellFrame frame(map);
+  return map.cells->gap(frame.in_cells(a), frame.in_cells(b)) * map.cell_m;
+}
+double clearance_of(const FloorMap& map, Vec2 p) noexcept {
+  return map.cells->clearance(CellFrame(map).in_cells(p)) * map.cell_m;
+}
+Vec2 surface_of(const FloorMap& map, Vec2 p) noexcept {
+  const CellFrame frame(map);
+  return frame.in_metres(map.cells->nearest_surface_point(frame.in_cells(p)));
+}
+Vec2 push_out_of(const FloorMap& map, Vec2 p, double radius) noexcept {
+  const CellFrame frame(map);
+  const Vec2 shift = map.cells->push_out(frame.in_cells(p), radius / map.cell_m);
+  return shift == Vec2{} ? shift : frame.shift_m(shift);
+}
+Vec2 size_of(const FloorMap& map) noexcept {
+  return Vec2{static_cast<double>(map.cells->columns()), static_cast<double>(map.cells->rows())};
+}
+
 }  // namespace
+
+CellFrame::CellFrame(const FloorMap& map) noexcept
+    : rotation_{map.angle_rad == 0.0 ? Vec2{1.0, 0.0} : unit(unit_vector(map.angle_rad))},
+      origin_{map.origin},
+      cell_m_{map.cell_m} {}
 
 bool blocks(const Obstacle& obstacle, Vec2 a, Vec2 b) noexcept {
   if (before(b, a)) std::swap(a, b);
@@ -176,6 +207,26 @@ double clearance(std::span<const Obstacle> obstacles, Vec2 p) noexcept {
   return least;
 }
 
+bool may_be_nearer(const Obstacle& obstacle, Vec2 p, double distance_m) noexcept {
+  const auto* map = std::get_if<FloorMap>(&obstacle);
+  if (map == nullptr) return clearance(obstacle, p) < distance_m;
+  return map->cells->least_clearance(CellFrame(*map).in_cells(p)) * map->cell_m < distance_m;
+}
+
+Disc enclosing(const Obstacle& obstacle) noexcept {
+  struct Enclose {
+    Disc operator()(const Disc& disc) const { return disc; }
+    Disc operator()(const Box& box) const { return {box.center, 0.5 * norm(box.size)}; }
+    Disc operator()(const Wall& wall) const {
+      return {(wall.from + wall.to) * 0.5, 0.5 * distance(wall.from, wall.to)};
+    }
+    Disc operator()(const FloorMap& map) const {
+      return {CellFrame(map).in_metres(0.5 * size_of(map)), 0.5 * map.cell_m * norm(size_of(map))};
+    }
+  };
+  return std::visit(Enclose{}, obstacle);
+}
+
 Vec2 nearest_surface_point(const Obstacle& obstacle, Vec2 p) noexcept {
   return std::visit([&](const auto& o) { return surface_of(o, p); }, obstacle);
 }
@@ -184,14 +235,7 @@ Vec2 push_out(const Obstacle& obstacle, Vec2 p, double radius) noexcept {
   return std::visit([&](const auto& o) { return push_out_of(o, p, radius); }, obstacle);
 }
 
-Vec2 center_of(const Obstacle& obstacle) noexcept {
-  struct Center {
-    Vec2 operator()(const Disc& disc) const { return disc.center; }
-    Vec2 operator()(const Box& box) const { return box.center; }
-    Vec2 operator()(const Wall& wall) const { return (wall.from + wall.to) * 0.5; }
-  };
-  return std::visit(Center{}, obstacle);
-}
+Vec2 center_of(const Obstacle& obstacle) noexcept { return enclosing(obstacle).center; }
 
 Obstacle moved(const Obstacle& obstacle, Vec2 center) noexcept {
   struct Move {
@@ -201,6 +245,10 @@ Obstacle moved(const Obstacle& obstacle, Vec2 center) noexcept {
     Obstacle operator()(const Wall& wall) const {
       const Vec2 half = (wall.to - wall.from) * 0.5;
       return Wall{center - half, center + half};
+    }
+    Obstacle operator()(FloorMap map) const {
+      map.origin += center - center_of(Obstacle{map});
+      return map;
     }
   };
   return std::visit(Move{center}, obstacle);

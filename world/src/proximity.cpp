@@ -2,6 +2,8 @@
 #include "proximity.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "banyan/world/obstacles.hpp"
 
@@ -10,13 +12,10 @@ namespace {
 
 constexpr double rounding = 1e-9;  // of lengths in a world of that size, and far more
 
-struct Enclose {
-  std::pair<Vec2, double> operator()(const Disc& disc) const { return {disc.center, disc.radius_m}; }
-  std::pair<Vec2, double> operator()(const Box& box) const { return {box.center, 0.5 * norm(box.size)}; }
-  std::pair<Vec2, double> operator()(const Wall& wall) const {
-    return {(wall.from + wall.to) * 0.5, 0.5 * distance(wall.from, wall.to)};
-  }
-};
+// Which eighth of the plane a direction is in, by the signs of its parts and which is larger.
+std::size_t eighth(Vec2 d) noexcept {
+  return (d.x < 0.0 ? 1U : 0U) | (d.y < 0.0 ? 2U : 0U) | (std::abs(d.x) < std::abs(d.y) ? 4U : 0U);
+}
 
 }  // namespace
 
@@ -64,8 +63,8 @@ void Proximity::set_obstacles(std::span<const Obstacle> obstacles) {
   obstacles_.assign(obstacles.begin(), obstacles.end());
   around_.clear();
   for (const Obstacle& obstacle : obstacles_) {
-    const auto [center, radius] = std::visit(Enclose{}, obstacle);
-    around_.push_back({center, (radius + reach_m_) * (1.0 + rounding) - reach_m_});
+    const Disc disc = enclosing(obstacle);
+    around_.push_back({disc.center, (disc.radius_m + reach_m_) * (1.0 + rounding) - reach_m_});
   }
 }
 
@@ -80,14 +79,32 @@ void Proximity::update(std::span<const Vec2> positions, std::span<const std::uin
   });
 }
 
+// A map is around a robot on all sides: what counts is its nearest point in each eighth of the plane.
+void Proximity::see_map(const FloorMap& map, Vec2 here, std::size_t index, Nearest& nearest) const noexcept {
+  if (!may_be_nearer(map, here, reach_m_)) return;
+  std::array<Vec2, 8> least{};
+  std::array<double, 8> least2;
+  least2.fill(std::numeric_limits<double>::infinity());
+  each_near(map, here, reach_m_, [&](Vec2 point) {
+    const Vec2 d = point - here;
+    const std::size_t side = eighth(d);
+    if (squared_norm(d) >= least2[side]) return;
+    least[side] = d;
+    least2[side] = squared_norm(d);
+  });
+  for (std::size_t side = 0; side < least.size(); ++side)
+    if (least2[side] <= reach_m_ * reach_m_) nearest.offer(least[side], index);
+}
+
 std::size_t Proximity::sense(const Poses& poses, std::size_t i, Seen& seen) const noexcept {
   if (obstacles_.empty() && dead_.empty()) return 0;
   const Vec2 here = poses.position[i];
   Nearest nearest(reach_m_);
   for (std::size_t k = 0; k < obstacles_.size(); ++k) {
     const double far = around_[k].radius_m + reach_m_;
-    if (squared_norm(around_[k].center - here) <= far * far)
-      nearest.offer(nearest_surface_point(obstacles_[k], here) - here, k);
+    if (squared_norm(around_[k].center - here) > far * far) continue;
+    if (const auto* map = std::get_if<FloorMap>(&obstacles_[k])) see_map(*map, here, k, nearest);
+    else nearest.offer(nearest_surface_point(obstacles_[k], here) - here, k);
   }
   const double far = reach_m_ + radius_m_;
   auto body = std::lower_bound(dead_.begin(), dead_.end(), here.x - far,

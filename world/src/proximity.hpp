@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The proximity sensor: the nearest point on the surface of each obstacle within reach. Dead robots
+// The proximity sensor: the nearest point on the surface of each obstacle within reach, of a map that in each eighth of
+// the plane around the robot. Dead robots
 // that stay are sensed, living ones are not, since they can be heard.
 #pragma once
 
@@ -39,6 +40,7 @@ class Proximity {
     std::uint32_t index;
   };
   class Nearest;
+  void see_map(const FloorMap& map, Vec2 here, std::size_t index, Nearest& nearest) const noexcept;
 
   double reach_m_;
   double radius_m_;

@@ -113,6 +113,8 @@ class Radio::Fast {
   }
   // So far that clocks may go on: they are up to one unit too slow per robot, and rounding is far less.
   [[nodiscard]] Way way(double m) const noexcept { return static_cast<Way>(std::max(0.0, m * units_per_m_ - 4.0)); }
+  // Obstacles that are farther beyond the range are in no line of sight before robots have moved so far.
+  [[nodiscard]] double beyond_range_m() const noexcept { return 0.25 * range_m_; }
   [[nodiscard]] Way fast_clock(std::size_t i) const noexcept { return path_[i] + 2 * around_[i]; }
 
   [[nodiscard]] bool follow(std::span<const Vec2> positions, std::span<const std::uint8_t> alive);

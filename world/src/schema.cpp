@@ -27,6 +27,16 @@ template <> struct NamesOf<Kill::Of> {
 template <> struct NamesOf<Targets> {
   static constexpr std::string_view list[] = {"list", RingTargets::kind, RandomTargets::kind};
 };
+template <> struct Conversion<std::shared_ptr<const CellGrid>> {
+  using Cells = std::shared_ptr<const CellGrid>;
+  static constexpr Type type = Type::text;
+  static constexpr bool optional = true;
+  static Names names() noexcept { return {}; }
+  static Value get(const Cells& cells) { return cells ? Value(cells->text()) : Value(); }
+  static void set(Cells& cells, const Value& value) {
+    cells = std::make_shared<const CellGrid>(CellGrid::from_text(std::get<std::string>(value)));
+  }
+};
 template <class... Alternatives> struct NamesOf<std::variant<Alternatives...>> {
   static constexpr std::string_view list[] = {Alternatives::kind...};
 };
@@ -151,6 +161,8 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"description", of<&Scenario::description>, "", any_value, "what this world is about, for readers"},
     {"tick_s", of<&Scenario::tick_s>, "s", {0.001, 10.0},
      "length of a tick; robots broadcast, decide and move once a tick"},
+    {"map", of<&Scenario::map>, "", any_value,
+     "a map of ROS, by its YAML file: short for one of the obstacles with that `file`", {.otherwise = "none"}},
     {"seed", of<&Scenario::seed>, "", any_seed, "determines everything random; the same seed gives the same run",
      {.only_in_files = true}},
 
@@ -340,10 +352,20 @@ constexpr Key<Obstacle> obstacle_rows[] = {
     {"obstacles.center_m", of<&Disc::center, &Box::center>, "m", anywhere, "centre", {.required = true}},
     {"obstacles.radius_m", of<&Disc::radius_m>, "m", any_length, "radius", {.required = true}},
     {"obstacles.size_m", of<&Box::size>, "m", any_length, "length and width", {.required = true}},
-    {"obstacles.angle_deg", of<&Box::angle_rad>, "deg", any_angle,
-     "direction of the length, counter-clockwise from the x axis"},
+    {"obstacles.angle_deg", of<&Box::angle_rad, &FloorMap::angle_rad>, "deg", any_angle,
+     "direction of a box's length or of a map's rows, counter-clockwise from the x axis"},
     {"obstacles.from_m", of<&Wall::from>, "m", anywhere, "one end", {.required = true}},
     {"obstacles.to_m", of<&Wall::to>, "m", anywhere, "the other end", {.required = true}},
+    {"obstacles.file", of<&FloorMap::file>, "", any_value,
+     "a map from a file, as seen from that of the scenario: YAML of ROS, with which resolution_m, origin_m and "
+     "angle_deg come; a picture (PNG, BMP, PGM) whose dark pixels are occupied; a .map of MovingAI",
+     {.otherwise = "cells count"}},
+    {"obstacles.resolution_m", of<&FloorMap::cell_m>, "m", any_length, "side of a cell", {.required = true}},
+    {"obstacles.origin_m", of<&FloorMap::origin>, "m", anywhere,
+     "lower left corner of the cells, about which they are turned"},
+    {"obstacles.cells", of<&FloorMap::cells>, "", any_value,
+     "rows of cells from the top: `#` occupied, `.` free; `12.` is twelve free ones, `3*` before a row three of them",
+     {.required = true, .text_fault = CellGrid::text_fault}},
 };
 
 constexpr Key<Event> event_rows[] = {

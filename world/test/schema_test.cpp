@@ -30,7 +30,7 @@ template <class Owner> Value sample(const Key<Owner>& key, std::size_t k) {
     case Type::whole: return static_cast<std::int64_t>(low) + static_cast<std::int64_t>(k % 50) + 1;
     case Type::number: return x;
     case Type::name: return std::string(key.access.names(blank<Owner>())[k % key.access.names(blank<Owner>()).size()]);
-    case Type::text: return "text " + std::to_string(k);
+    case Type::text: return key.terms.text_fault == nullptr ? "text " + std::to_string(k) : std::to_string(k + 3) + "#";
     case Type::point: return Vec2{x, -x};
     case Type::points: return std::vector<Vec2>{{x, 1.0}, {x, 2.0}};
     case Type::pairs: return NamePairs{{"a", "b"}};

@@ -4,6 +4,20 @@
 #include <algorithm>
 
 namespace banyan {
+namespace {
+
+// Counted from ahead to the left, equally many in each quadrant, and no more than half as wide again as they would be
+// if all were equal.
+std::size_t direction_of(Vec2 point) noexcept {
+  constexpr float per_quadrant = static_cast<float>(most_obstacles) / 4.0F;
+  const float sum = std::fabs(point.x) + std::fabs(point.y);
+  if (sum == 0.0F) return 0;
+  const float slope = point.y / sum;
+  const float quadrants = point.x < 0.0F ? 2.0F - slope : slope < 0.0F ? 4.0F + slope : slope;
+  return std::min(most_obstacles - 1, static_cast<std::size_t>(quadrants * per_quadrant));
+}
+
+}  // namespace
 
 Gate::Gate(const Senses& senses, const Platform& platform) noexcept
     : per_metre_(1.0F / platform.communication_range_m),
@@ -48,17 +62,28 @@ Vec2 Gate::way_of_station(const Platform& platform) const noexcept {
   return rotate_back(unit_vector(turn_rad_), unit(moved_)) * ahead;
 }
 
-// Of more than there is room for the first are kept; the others are not rejected, since a good sensor may well see so
-// many.
+// Of more than there is room for, as a lidar has them, the nearest one in each of so many directions is kept: it hides
+// the others. They are not rejected.
 void Gate::admit_obstacles(std::span<const Vec2> obstacles) noexcept {
   std::array<Vec2, most_obstacles>& passed = room_.emplace();
-  std::size_t kept = 0;
+  std::size_t possible = 0;
   for (const Vec2 o : obstacles) {
     const Vec2 point = o * per_metre_;
     if (!is_within(point, farthest_ranges)) ++rejected_;
-    else if (kept < most_obstacles) passed[kept++] = point;
+    else if (possible++ < most_obstacles) passed[possible - 1] = point;
   }
-  obstacles_ = std::span<const Vec2>(passed).first(kept);
+  obstacles_ = std::span<const Vec2>(passed).first(std::min(possible, most_obstacles));
+  if (possible <= most_obstacles) return;
+  passed.fill({2.0F * farthest_ranges, 0.0F});
+  for (const Vec2 o : obstacles) {
+    const Vec2 point = o * per_metre_;
+    if (!is_within(point, farthest_ranges)) continue;
+    Vec2& nearest = passed[direction_of(point)];
+    if (squared_norm(point) < squared_norm(nearest)) nearest = point;
+  }
+  const auto end = std::remove_if(passed.begin(), passed.end(),
+                                  [](Vec2 point) { return squared_norm(point) > farthest_ranges * farthest_ranges; });
+  obstacles_ = std::span<const Vec2>(passed).first(static_cast<std::size_t>(end - passed.begin()));
 }
 
 // What is left of the odometry, which is in the frame at the last step, is turned into the frame of the packet.

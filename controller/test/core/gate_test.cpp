@@ -153,21 +153,37 @@ TEST(Gate, DropsImpossibleObstaclesAndKeepsTheOrderOfTheOthers) {
   EXPECT_EQ(gate.rejected(), 3U);
 }
 
-TEST(Gate, OfMoreObstaclesThanItHoldsTheFirstCount) {
-  std::vector<Vec2> sensed, first;
+TEST(Gate, KeepsAsManyObstaclesAsItHoldsAsTheyAre) {
+  std::vector<Vec2> sensed, same;
   for (std::size_t k = 0; k < most_obstacles; ++k) {
     sensed.push_back({0.1F, 0.01F * static_cast<float>(k)});
-    first.push_back(sensed.back() * 0.5F);
+    same.push_back(sensed.back() * 0.5F);
   }
-  EXPECT_EQ(obstacles_of(Gate({.obstacles = sensed}, platform)), first) << "just as many";
-  for (int k = 0; k < 500; ++k) sensed.push_back({-0.2F, 0});
-  const Gate gate({.obstacles = sensed}, platform);
-  EXPECT_EQ(obstacles_of(gate), first);
-  EXPECT_EQ(gate.rejected(), 0U) << "none of them is impossible";
-  sensed[3] = sensed.back() = {nan_m, 0};
-  const Gate other({.obstacles = sensed}, platform);
-  EXPECT_EQ(obstacles_of(other).back(), (Vec2{-0.1F, 0})) << "the next moves up";
-  EXPECT_EQ(other.rejected(), 2U) << "wherever they stand";
+  EXPECT_EQ(obstacles_of(Gate({.obstacles = sensed}, platform)), same);
+}
+
+// A lidar's turn in a room, from any direction on: whatever is left out has a point that is kept before it.
+TEST(Gate, OfMoreObstaclesThanItHoldsTheNearestOnEachSideCount) {
+  for (int first = 0; first < 720; first += 37) {
+    std::vector<Vec2> sensed;
+    for (int k = 0; k < 720; ++k) {
+      const float angle = static_cast<float>(k + first) * 2.0F * pi<float> / 720.0F;
+      sensed.push_back((1.0F + 0.5F * std::sin(5.0F * angle) + (k % 7 == 0 ? 0.3F : 0.0F)) * unit_vector(angle));
+    }
+    sensed[3] = sensed.back() = {nan_m, 0};
+    const Gate gate({.obstacles = sensed}, platform);
+    EXPECT_EQ(gate.rejected(), 2U) << "the others are possible";
+    const std::vector<Vec2> kept = obstacles_of(gate);
+    EXPECT_LE(kept.size(), most_obstacles);
+    for (const Vec2 o : sensed) {
+      if (std::isnan(o.x)) continue;
+      const Vec2 point = o * 0.5F;
+      EXPECT_TRUE(
+          std::any_of(kept.begin(), kept.end(),
+                      [&](Vec2 k) { return norm(k) <= norm(point) && dot(k, point) >= 0.98F * norm(k) * norm(point); }))
+          << point.x << ' ' << point.y;
+    }
+  }
 }
 
 TEST(Gate, DropsPacketsWhoseSenderCannotBeThere) {

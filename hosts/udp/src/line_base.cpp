@@ -12,7 +12,8 @@
 namespace banyan::udp {
 namespace {
 
-constexpr std::size_t longest_line = 4096;
+constexpr std::size_t most_points = 4096;       // of a lidar's turn
+constexpr std::size_t longest_line = 1U << 17;  // with them
 
 std::string_view take_word(std::string_view& line) noexcept {
   const std::size_t end = std::min(line.find(' '), line.size());
@@ -42,7 +43,7 @@ std::optional<BaseLine> pose_of(const std::vector<float>& values) {
 }
 
 std::optional<BaseLine> seen_of(const std::vector<float>& values) {
-  if (values.size() % 2 != 0 || values.size() > 2 * most_seen) return std::nullopt;
+  if (values.size() % 2 != 0 || values.size() > 2 * most_points) return std::nullopt;
   Seen seen;
   for (std::size_t k = 0; k < values.size(); k += 2) seen.points.push_back({values[k], values[k + 1]});
   return seen;

@@ -18,8 +18,12 @@ constexpr float place_tolerance_m = 0.1F;
 
 }  // namespace
 
-UdpRobot::UdpRobot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s)
-    : algorithm_(algorithm), setup_(std::move(setup)), id_(id), stop_after_s_(stop_after_s) {}
+UdpRobot::UdpRobot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s, double proximity_m)
+    : algorithm_(algorithm),
+      setup_(std::move(setup)),
+      id_(id),
+      stop_after_s_(stop_after_s),
+      proximity_m_(static_cast<float>(proximity_m)) {}
 
 // A robot that has started again in the middle of a mission is not its first root.
 void UdpRobot::begin(const SensorFrame& frame) {
@@ -91,6 +95,7 @@ std::span<const Vec2> UdpRobot::without_neighbors(const OdometricPose& pose, std
   for (const auto& [sender, known] : known_)
     if (now_s - known.given_s <= heard_for_s) neighbors_.push_back(pose.inside(known.position));
   seen_.assign(seen.begin(), seen.end());
+  if (proximity_m_ > 0.0F) std::erase_if(seen_, [this](Vec2 point) { return norm(point) > proximity_m_; });
   return without_robots(seen_, neighbors_, setup_.platform.body_radius_m, place_tolerance_m);
 }
 

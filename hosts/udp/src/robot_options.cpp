@@ -73,6 +73,8 @@ void add_options(CLI::App& app, RobotOptions& o) {
   add_number(
       app, "--radius", platform.body_radius_m, 1e-3, 100.0,
       "radius of a robot's body, m; what a base sees where a robot was heard is not an obstacle; default 0.0704");
+  add_number(app, "--proximity", o.proximity_m, 1e-3, 1e3,
+             "what its base sees farther from its middle is no obstacle yet, m; for a lidar; default none is too far");
   add_number(app, "--arrival", o.setup.arrival_distance_m, 1e-4, 1e3,
              "how near to a target it has arrived, m; default 0.2");
   add_number(app, "--link-redundancy", o.setup.link_redundancy, 1, 3,

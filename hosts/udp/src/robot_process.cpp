@@ -54,7 +54,7 @@ class Process {
         keys_(options.key_file),
         socket_(options.listen.empty() ? Address{} : parse_address(options.listen)),
         driver_(make_driver(options)),
-        robot_(algorithm, options.setup, options.id, options.stop_after_s),
+        robot_(algorithm, options.setup, options.id, options.stop_after_s, options.proximity_m),
         contact_(make_contact({options_, socket_, *driver_, robot_, keys_.keys(), refusals_})),
         clock_(options.speed),
         next_step_s_(clock_.now_s()) {

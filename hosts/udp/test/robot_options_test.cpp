@@ -26,7 +26,7 @@ TEST(RobotOptions, WhatIsWrittenIsReadAgain) {
   // clang-format off
   const auto arguments = with({"--base", "tcp:1.2.3.4:5", "--algorithm", "outwards", "--max-payload", "61", "--reading", "literal",
                                "--range", "1.7", "--tick", "0.05", "--wheel-limit", "0.13",
-                               "--wheel-distance", "0.3", "--radius", "0.09", "--arrival", "0.1",
+                               "--wheel-distance", "0.3", "--radius", "0.09", "--proximity", "0.4", "--arrival", "0.1",
                                "--link-redundancy", "2", "--holonomic", "--no-line-of-sight", "--set",
                                "safe_range=0.7", "--set", "x=0.1", "--stop-after", "0.7", "--delay", "0.02",
                                "--speed", "5"});

@@ -247,6 +247,13 @@ TEST_F(RobotAlone, ABaseOfItsOwnMeasuresItself) {
   EXPECT_EQ(given_.obstacles, seen);
 }
 
+TEST_F(RobotAlone, WhatItsBaseSeesBeyondItsProximityIsNoObstacle) {
+  UdpRobot robot{algorithm_, banyan::Setup{}, 7, 0.5, 0.6};
+  robot.take(frame(1), 10.0, OdometricPose{});
+  static_cast<void>(robot.step(10.1, OdometricPose{}, std::vector<Vec2>{{0.0F, 0.5F}, {0.5F, 0.5F}, {8.0F, 0.0F}}));
+  EXPECT_EQ(given_.obstacles, (std::vector<Vec2>{{0.0F, 0.5F}}));
+}
+
 // A proximity sensor cannot tell a robot from a wall; whom the robot hears, it knows. The dead say nothing and remain.
 TEST_F(RobotAlone, WhatItsBaseSeesWhereARobotWasHeardIsNoObstacle) {
   const OdometricPose here{};

@@ -2,6 +2,7 @@
 // How far a run reaches: what a camera has to fit.
 import { column, type Frame, type Obstacle, type Setting } from '../frame';
 import type { Bounds } from './camera';
+import { inMetres } from './sight';
 
 const mostM = 1e6; // beyond, a position is damage and would hide the rest
 
@@ -21,6 +22,9 @@ function addObstacle(bounds: Bounds, obstacle: Obstacle): void {
   if ('wall' in obstacle) {
     add(bounds, ...obstacle.from_m);
     add(bounds, ...obstacle.to_m);
+  } else if ('map' in obstacle) {
+    const { columns, rows } = obstacle.cells;
+    for (const [i, j] of [[0, 0], [columns, 0], [0, rows], [columns, rows]]) add(bounds, ...inMetres(obstacle, i!, j!));
   } else if ('disc' in obstacle) {
     add(bounds, ...obstacle.center_m, obstacle.radius_m);
   } else {

@@ -58,8 +58,10 @@ function nearestObstacle(obstacles: readonly Obstacle[], camera: Camera, atPx: S
   return best;
 }
 
-/** Distance of a point to the obstacle's surface, m; negative inside a disc or box. */
+/** Distance of a point to the obstacle's surface, m; negative inside a disc or box. A map is the ground on which the rest
+ *  stands: nobody points at it. */
 export function clearance(obstacle: Obstacle, at: Spot): number {
+  if ('map' in obstacle) return Infinity;
   if ('wall' in obstacle) {
     const [ax, ay] = obstacle.from_m;
     const dx = obstacle.to_m[0] - ax, dy = obstacle.to_m[1] - ay;

@@ -46,6 +46,36 @@ function clip(p: number, d: number, half: number, span: Span): boolean {
   return span.from < span.to;
 }
 
+type FloorMap = Extract<Obstacle, { map: true }>;
+
+function rotationOf(map: FloorMap): [number, number] {
+  if (map.angle_rad === 0) return [1, 0];
+  const [c, s] = unitVector(map.angle_rad);
+  const norm = Math.sqrt(c * c + s * s);
+  return [c / norm, s / norm];
+}
+
+/** A place in a map's cells, m. */
+export function inMetres(map: FloorMap, column: number, row: number): [number, number] {
+  const [c, s] = rotationOf(map);
+  const x = column * map.resolution_m, y = row * map.resolution_m;
+  return [map.origin_m[0] + (c * x - s * y), map.origin_m[1] + (s * x + c * y)];
+}
+
+/** Its centre; of a wall, its middle. */
+export function centerOf(obstacle: Obstacle): [number, number] {
+  if ('map' in obstacle) return inMetres(obstacle, obstacle.cells.columns / 2, obstacle.cells.rows / 2);
+  if (!('wall' in obstacle)) return obstacle.center_m;
+  return [(obstacle.from_m[0] + obstacle.to_m[0]) / 2, (obstacle.from_m[1] + obstacle.to_m[1]) / 2];
+}
+
+function mapBlocks(map: FloorMap, ax: number, ay: number, bx: number, by: number): boolean {
+  const [c, s] = rotationOf(map);
+  const px = ax - map.origin_m[0], py = ay - map.origin_m[1], qx = bx - map.origin_m[0], qy = by - map.origin_m[1];
+  return map.cells.blocksLine((c * px + s * py) / map.resolution_m, (c * py - s * px) / map.resolution_m,
+    (c * qx + s * qy) / map.resolution_m, (c * qy - s * qx) / map.resolution_m);
+}
+
 type Box = Extract<Obstacle, { box: true }>;
 type Wall = Extract<Obstacle, { wall: true }>;
 
@@ -85,5 +115,6 @@ export function blocks(obstacle: Obstacle, ax: number, ay: number, bx: number, b
   if ('disc' in obstacle) {
     return discBlocks(obstacle.center_m[0], obstacle.center_m[1], obstacle.radius_m, ax, ay, bx, by);
   }
+  if ('map' in obstacle) return mapBlocks(obstacle, ax, ay, bx, by);
   return 'box' in obstacle ? boxBlocks(obstacle, ax, ay, bx, by) : wallBlocks(obstacle, ax, ay, bx, by);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The setting of a run from its JSON. What is missing or damaged in it gets Banyan's default: a picture
 // with the wrong radius is better than none, if it says so.
+import { Cells } from '../cells';
 import type { Obstacle, Point, Setting } from '../frame';
 import { arrayAt, fail, isObject, type Json, type JsonObject, Malformed, member, numberAt, numberIn, parseObject } from './json';
 import { far } from './parse';
@@ -68,6 +69,15 @@ function parseObstacle(value: Json): Obstacle {
   }
   if (member(value, 'wall') !== undefined) {
     return { wall: true, from_m: pointAt(value, 'from_m'), to_m: pointAt(value, 'to_m') };
+  }
+  if (member(value, 'map') !== undefined) {
+    const text = member(value, 'cells');
+    const cells = typeof text === 'string' ? Cells.parse(text) : null;
+    if (!cells) fail('obstacles', 'holds a map whose cells are none');
+    return {
+      map: true, origin_m: pointAt(value, 'origin_m'), resolution_m: numberAt(value, 'resolution_m', 1e-9, far),
+      angle_rad: numberAt(value, 'angle_rad', -far, far), cells,
+    };
   }
   return fail('obstacles', 'holds something unknown');
 }

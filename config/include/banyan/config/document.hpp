@@ -68,6 +68,8 @@ class DocumentError : public std::runtime_error {
   Problem problem;
 };
 
+// Of at most so many bytes; throws DocumentError that says what is wrong.
+[[nodiscard]] std::string read_file(const std::string& path, std::size_t most);
 // A regular file or a pipe ("-": standard input), at most 8 MiB; throws DocumentError that says
 // what is wrong: missing, a directory, not permitted, empty, binary.
 [[nodiscard]] std::string read_text_file(const std::string& path);

@@ -55,8 +55,10 @@ struct MessageType {
 [[nodiscard]] MessageType markers_type();     // visualization_msgs/msg/MarkerArray
 [[nodiscard]] MessageType transforms_type();  // tf2_msgs/msg/TFMessage
 [[nodiscard]] MessageType log_type();         // rcl_interfaces/msg/Log
+[[nodiscard]] MessageType map_type();         // nav_msgs/msg/OccupancyGrid
 
-inline constexpr std::string_view markers_topic = "/markers", transforms_topic = "/tf", log_topic = "/rosout";
+inline constexpr std::string_view markers_topic = "/markers", transforms_topic = "/tf", log_topic = "/rosout",
+                                  map_topic = "/map";
 
 [[nodiscard]] std::uint16_t add_channel(mcap::Writer& file, std::string_view topic, MessageType type,
                                         mcap::ChunkGroup group = 0);
@@ -72,10 +74,26 @@ struct Stamp {
 void write_transforms(CdrWriter& out, const Stamp& stamp, const Frame& frame);
 
 // Everything there is to see, after a marker that deletes all there was before; so a viewer may jump to any message.
-// Layers are namespaces: robots, headings, tree, old_tree, targets, target_names, obstacles, and links if there are
-// any. Points of lists are rounded to a 64th of a body's radius or less.
+// Layers are namespaces: robots, headings, tree, old_tree, targets, target_names, obstacles without maps, and links if
+// there are any. Points of lists are rounded to a 64th of a body's radius or less.
 void write_markers(CdrWriter& out, const Stamp& stamp, const Setting& setting, const Frame& frame,
                    const RadioLinks* links = nullptr);
+
+// Its cells, 0 free and 100 occupied; the lowest row first.
+void write_map(CdrWriter& out, const Stamp& stamp, const world::FloorMap& map);
+
+// The maps of a setting on /map, and on /map_2 and so on if there are several: each when there is one, and again when
+// it has changed, since viewers keep the last.
+class MapTopics {
+ public:
+  // Returns how many messages this made.
+  std::uint64_t write(mcap::Writer& file, CdrWriter& out, const Stamp& stamp, const Setting& setting,
+                      mcap::ChunkGroup group = 0);
+
+ private:
+  std::vector<std::uint16_t> channels_;
+  std::vector<world::FloorMap> last_;
+};
 
 // Where a robot is in the map, and how it has moved since `before`, in its own frame; `elapsed_s` 0: it stands still.
 // Exact, so all covariances are 0.

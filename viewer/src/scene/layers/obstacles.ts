@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Discs, boxes and walls.
+// Discs, boxes, walls and maps.
 import type { Obstacle } from '../../frame';
 import { toPxX, toPxY, type Camera } from '../camera';
+import { inMetres } from '../sight';
 import type { Shot } from '../shot';
 
 export const wallPx = 5;
@@ -15,6 +16,18 @@ export function traceObstacle(
   if ('wall' in obstacle) {
     pen.moveTo(x(obstacle.from_m[0]), y(obstacle.from_m[1]));
     pen.lineTo(x(obstacle.to_m[0]), y(obstacle.to_m[1]));
+    return;
+  }
+  if ('map' in obstacle) {
+    for (const block of obstacle.cells.blocks()) {
+      const corners = [[block.left, block.bottom], [block.right, block.bottom], [block.right, block.top], [block.left, block.top]];
+      corners.forEach(([i, j], k) => {
+        const [mx, my] = inMetres(obstacle, i!, j!);
+        if (k === 0) pen.moveTo(x(mx), y(my));
+        else pen.lineTo(x(mx), y(my));
+      });
+      pen.closePath();
+    }
     return;
   }
   const [cx, cy] = obstacle.center_m;
@@ -36,8 +49,13 @@ export function traceObstacle(
 export function drawObstacles({ pen, view, theme }: Shot): void {
   const { obstacles } = view.setting;
   if (obstacles.length === 0) return;
+  // Without an edge, which would show where its rectangles meet.
   pen.beginPath();
-  for (const obstacle of obstacles) if (!('wall' in obstacle)) traceObstacle(pen, obstacle, view.camera);
+  for (const obstacle of obstacles) if ('map' in obstacle) traceObstacle(pen, obstacle, view.camera);
+  pen.fillStyle = theme.obstacle;
+  pen.fill();
+  pen.beginPath();
+  for (const obstacle of obstacles) if (!('wall' in obstacle || 'map' in obstacle)) traceObstacle(pen, obstacle, view.camera);
   pen.fillStyle = theme.obstacle;
   pen.fill();
   pen.strokeStyle = theme.obstacleEdge;

@@ -4,6 +4,7 @@
 import { toPxX, toPxY } from '../camera';
 import { root, type Shot } from '../shot';
 import type { Item } from '../view';
+import { centerOf } from '../sight';
 import { rootRing } from './robots';
 import { targetRadiusPx, traceTarget } from './targets';
 import { traceObstacle, wallPx } from './obstacles';
@@ -119,8 +120,8 @@ export function placeOf(shot: Shot, item: Item): { x: number; y: number } {
   if (item.kind === 'robot') return { x: frame.data[item.index] ?? 0, y: frame.data[frame.robots + item.index] ?? 0 };
   const obstacle = setting.obstacles[item.index];
   if (!obstacle) return { x: 0, y: 0 };
-  if (!('wall' in obstacle)) return { x: obstacle.center_m[0], y: obstacle.center_m[1] };
-  return { x: (obstacle.from_m[0] + obstacle.to_m[0]) / 2, y: (obstacle.from_m[1] + obstacle.to_m[1]) / 2 };
+  const [x, y] = centerOf(obstacle);
+  return { x, y };
 }
 
 /** A ghost where it would be put, and the way there. */

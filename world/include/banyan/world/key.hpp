@@ -62,6 +62,7 @@ struct Terms {
   std::string_view not_beside = "";  // a key of the same section: one of the two
   std::string_view selector = "";    // the path of the key that decides whether it applies, if not its section's
   bool only_in_files = false;        // its range: a program may go beyond it
+  std::optional<std::string> (*text_fault)(std::string_view) = nullptr;  // what is wrong with a text
 };
 
 template <class Owner> struct Key {

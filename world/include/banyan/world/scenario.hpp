@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@
 
 #include "banyan/controller/core/algorithm.hpp"
 #include "banyan/controller/core/vec2.hpp"
+#include "banyan/world/cell_grid.hpp"
 
 namespace banyan::world {
 
@@ -180,7 +182,20 @@ struct Wall {  // a segment without thickness
   Vec2 to;
   friend bool operator==(const Wall&, const Wall&) = default;
 };
-using Obstacle = std::variant<Disc, Box, Wall>;
+struct FloorMap {  // occupied cells of a grid
+  static constexpr std::string_view kind = "map";
+  std::optional<std::string> file{};      // config/ puts the cells in its place
+  double cell_m = 0.0;                    // side of a cell, above 0
+  Vec2 origin{};                          // the lower left corner,
+  double angle_rad = 0.0;                 // about which it is turned
+  std::shared_ptr<const CellGrid> cells;  // none while it is being described
+
+  friend bool operator==(const FloorMap& a, const FloorMap& b) noexcept {
+    const bool same_cells = a.cells == b.cells || (a.cells && b.cells && *a.cells == *b.cells);
+    return same_cells && a.cell_m == b.cell_m && a.origin == b.origin && a.angle_rad == b.angle_rad;
+  }
+};
+using Obstacle = std::variant<Disc, Box, Wall, FloorMap>;
 
 // What can happen to a world.
 struct Die {
@@ -283,6 +298,7 @@ struct Scenario {
   Targets targets = RingTargets{};
   Visits visits;
   std::vector<Station> stations;
+  std::optional<std::string> map{};  // a file: config/ makes it the last of
   std::vector<Obstacle> obstacles;
   std::vector<Event> events;  // any order; equal times act in file order
 };

@@ -21,7 +21,7 @@ inline constexpr float farthest_ranges = 10.0F;    // C: a neighbour, an obstacl
 inline constexpr float farthest_place = 1000.0F;   // C: a target; wire.hpp writes places a little farther away
 inline constexpr float largest_turn_rad = 1.0e3F;  // in one step; trig.hpp is exact up to 1e4
 inline constexpr int longest_step_ticks = 36'000;
-inline constexpr std::size_t most_obstacles = 64;  // that are looked at in one step: the first
+inline constexpr std::size_t most_obstacles = 64;  // that are looked at in one step; of more, the nearest each way
 
 // What passed, and how much did not. Lives as long as the step: obstacles lie in it.
 class Gate {

@@ -29,7 +29,7 @@
 namespace banyan::udp {
 
 struct Seen {
-  std::vector<Vec2> points;  // at most most_seen
+  std::vector<Vec2> points;  // at most 4096
 };
 struct Near {
   struct Robot {

@@ -20,8 +20,8 @@ namespace banyan::udp {
 class UdpRobot {
  public:
   // Stands still while its newest frame is older than `stop_after_s`. `algorithm` must outlive
-  // it.
-  UdpRobot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s);
+  // it. Of what a base sees, what is farther than `proximity_m` is left out; 0: nothing is.
+  UdpRobot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s, double proximity_m = 0.0);
 
   // What the hub has said. `at`: where the own odometry was when it was measured; nothing: the hub knows that itself.
   void take(const SensorFrame& frame, double now_s, const std::optional<OdometricPose>& at = {});
@@ -56,6 +56,7 @@ class UdpRobot {
   Setup setup_;
   RobotId id_;
   double stop_after_s_;
+  float proximity_m_;
   std::unique_ptr<Swarm> swarm_;  // of this robot alone; none before the first frame
 
   SensorFrame frame_;       // the newest

@@ -24,6 +24,7 @@ struct RobotOptions {
   Setup setup;
   std::size_t max_payload = 0;  // bytes of a message that its radio carries; 0: any
   std::string base;             // "": simulated wheels; tcp:ADDRESS:PORT, a serial device or mavlink:... of these
+  double proximity_m = 0.0;     // as far as a base sees obstacles; 0: any distance
   double stop_after_s = 0.5;    // without a frame from the hub; without a hub, without a pose of its base
   double delay_s = 0.0;         // from a measurement of the tracker to its arrival here; with a base only
   double speed = 1.0;           // of its clock
