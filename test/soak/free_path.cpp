@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "cells.hpp"
+
 namespace banyan::soak {
 namespace {
 
@@ -39,6 +41,13 @@ Polygon polygon_of(const world::Box& box) {
 }
 Polygon polygon_of(const world::Wall& wall) { return {wall.from, wall.to}; }
 
+template <class Shape> void add_polygons(const Shape& shape, std::vector<Polygon>& polygons) {
+  polygons.push_back(polygon_of(shape));
+}
+void add_polygons(const world::FloorMap& map, std::vector<Polygon>& polygons) {
+  for (const world::Box& cell : cells_of(map)) polygons.push_back(polygon_of(cell));
+}
+
 bool crosses_wall(Vec2 a, Vec2 b, Vec2 from, Vec2 to) {
   const double a_side = side(from, to, a), b_side = side(from, to, b), from_side = side(a, b, from),
                to_side = side(a, b, to);
@@ -67,9 +76,9 @@ double free_path_m(const std::vector<world::Obstacle>& obstacles, Vec2 from, Vec
   std::vector<Polygon> polygons;
   std::vector<Vec2> points{from, to};
   for (const world::Obstacle& obstacle : obstacles) {
-    polygons.push_back(std::visit([](const auto& o) { return polygon_of(o); }, obstacle));
-    points.insert(points.end(), polygons.back().begin(), polygons.back().end());
+    std::visit([&](const auto& o) { add_polygons(o, polygons); }, obstacle);
   }
+  for (const Polygon& polygon : polygons) points.insert(points.end(), polygon.begin(), polygon.end());
   const auto is_free = [&](Vec2 a, Vec2 b) {
     return std::none_of(polygons.begin(), polygons.end(), [&](const Polygon& p) { return passes_through(a, b, p); });
   };

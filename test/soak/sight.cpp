@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "cells.hpp"
+
 namespace banyan::soak {
 namespace {
 
@@ -39,6 +41,11 @@ struct Cuts {
     const Vec2 up = y * (0.5 * box.size.y - slack_m);
     return cross_each_other(a, b, box.center - right - up, box.center + right + up) ||
            cross_each_other(a, b, box.center - right + up, box.center + right - up);
+  }
+  bool operator()(const FloorMap& map) const {  // cell by cell
+    for (const Box& cell : cells_of(map))
+      if ((*this)(cell)) return true;
+    return false;
   }
 };
 

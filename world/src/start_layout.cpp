@@ -216,7 +216,7 @@ std::vector<Vec2> start_points(const Scenario& scenario) {
   const Start& start = scenario.swarm.start;
   const bool random = start.layout == Layout::random;
   std::vector<Obstacle> taken = scenario.obstacles;
-  for (const Station& station : scenario.stations) taken.push_back(Disc{station.position, scenario.robot.radius_m});
+  for (const Station& station : scenario.stations) taken.emplace_back(Disc{station.position, scenario.robot.radius_m});
   const Ground ground(taken, scenario.robot.radius_m + (random ? 0.0 : start_jitter_m(scenario)));
   const std::size_t count = free_robot_count(scenario);
   const double pitch = start_pitch_m(scenario);
