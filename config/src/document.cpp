@@ -289,7 +289,9 @@ std::string read_file(const std::string& path, std::size_t most) {
     if (got < 0) fail(place, std::string("cannot be read: ") + std::strerror(errno));
     if (got == 0) break;
     text.append(buffer.data(), static_cast<std::size_t>(got));
-    if (text.size() > most) fail(place, "is larger than " + std::to_string(most >> 20) + " MiB");
+    if (text.size() > most)
+      fail(place, "is larger than " + std::to_string(most >> 20) + " MiB" +
+                      (most == largest_file ? ": this is no scenario" : ""));
   }
   return text;
 }

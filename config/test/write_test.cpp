@@ -106,8 +106,9 @@ json random_tree() {
     if (section.repeated) {
       root[path] = json::array();
       for (int n = *rc::gen::inRange(0, 4); n > 0; --n) {
-        root[path].push_back(path == "obstacles" ? random_section(section, world::obstacle_keys())
-                                                 : random_section(section, world::event_keys()));
+        root[path].push_back(path == "obstacles"  ? random_section(section, world::obstacle_keys())
+                             : path == "stations" ? random_section(section, world::station_keys())
+                                                  : random_section(section, world::event_keys()));
       }
     } else if (path == "mission.parameters") {
       for (const auto& info : algorithms().parameters()) {

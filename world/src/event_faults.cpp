@@ -21,7 +21,13 @@ struct Sequel {
   std::vector<Obstacle> obstacles;
   std::size_t robots;  // that have been there
   std::size_t places;
+  std::size_t stations_from = 0, stations_to = 0;  // targets that go with stations
 };
+
+std::size_t held_by_stations(const Scenario& scenario) noexcept {
+  return static_cast<std::size_t>(std::count_if(scenario.stations.begin(), scenario.stations.end(),
+                                                [](const Station& station) { return !station.root; }));
+}
 
 // When a run ends. Taken once for all events: it depends on all targets and all events.
 struct End {
@@ -99,10 +105,7 @@ class CheckEventFits {
     if (i >= before_.targets)
       list_.fail(key_ + ".target", "there is no target " + std::to_string(i) + " at that time; the last one is " +
                                        std::to_string(before_.targets - 1));
-    const std::size_t all = target_positions(scenario_).size();
-    const auto stations = static_cast<std::size_t>(std::count_if(scenario_.stations.begin(), scenario_.stations.end(),
-                                                                 [](const Station& station) { return !station.root; }));
-    if (i < all && i + stations >= all)
+    if (i >= before_.stations_from && i < before_.stations_to)
       list_.fail(key_ + ".target", "target " + std::to_string(i) + " is where a station is, and goes with it");
   }
   [[nodiscard]] bool obstacle(std::size_t i) const {
@@ -149,10 +152,10 @@ std::size_t check_in_order(FaultList& list, const Scenario& scenario, std::size_
   }));
   const End end(scenario);
   // Stations hold their places themselves.
-  const auto held = static_cast<std::size_t>(std::count_if(scenario.stations.begin(), scenario.stations.end(),
-                                                           [](const Station& station) { return !station.root; }));
+  const std::size_t held = held_by_stations(scenario);
   const std::size_t there = robots + scenario.stations.size(), served = targets - held;
-  Sequel sequel{targets + adds_late, served, served, {}, scenario.obstacles, there, place_count(scenario)};
+  Sequel sequel{targets + adds_late,   served, served, {}, scenario.obstacles, there,
+                place_count(scenario), served, targets};
   for (const std::size_t i : order) {
     if (waits(i)) continue;
     // Its constructor is the check. NOLINTNEXTLINE(bugprone-unused-raii)
@@ -190,9 +193,18 @@ std::vector<Fault> event_faults(const Scenario& scenario, const Present* now) {
   const std::size_t last = scenario.events.size() - 1;
   if (scenario.events[last].when != Event::When::time)
     list.fail(element("events", last) + ".when", "what somebody does happens now");
+  const std::size_t at_start = target_positions(scenario).size();
   // NOLINTNEXTLINE(bugprone-unused-raii): its constructor is the check
   CheckEventFits(list, scenario, End(scenario), last,
-                 {now->targets, 0, 0, {}, now->obstacles, now->robots, now->places});
+                 {now->targets,
+                  0,
+                  0,
+                  {},
+                  now->obstacles,
+                  now->robots,
+                  now->places,
+                  at_start - held_by_stations(scenario),
+                  at_start});
   return list.take();
 }
 

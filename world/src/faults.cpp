@@ -600,8 +600,11 @@ void check_targets_fit(FaultList& list, const Scenario& scenario) {
     check_target_room(list, scenario, scenario.obstacles, around[i], visit_key(i), "place " + std::to_string(i),
                       visits[i]);
   if (!list.failed()) {
-    check_ways(list, scenario, targets, [&](std::size_t i) { return target_key(scenario, missions, i); });
-    check_ways(list, scenario, visits, visit_key);
+    std::vector<Vec2> places = targets;
+    places.insert(places.end(), visits.begin(), visits.end());
+    check_ways(list, scenario, places, [&](std::size_t i) {
+      return i < targets.size() ? target_key(scenario, missions, i) : visit_key(i - targets.size());
+    });
   }
   if (!check_events_fit(list, scenario, targets.size(), robots)) return;
   const std::size_t needed = least_robots(targets, target_tolerance_m(scenario), scenario.radio.range_m);

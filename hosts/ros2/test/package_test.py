@@ -106,7 +106,7 @@ def check_launch(file, prefix):
     return "evaluated"
 
 
-check(len(HEARD) == 3 and len(PUBLISHED) >= 5 and len(LAYERS) >= 8 and len(RECORDED) == 3, "the sources look otherwise")
+check(len(HEARD) == 3 and len(PUBLISHED) >= 5 and len(LAYERS) >= 8 and len(RECORDED) == 4, "the sources look otherwise")
 with tempfile.TemporaryDirectory() as folder:
     prefix = pathlib.Path(folder)
     for component in ("program", "ros2"):
