@@ -61,7 +61,7 @@ template <class Owner> rc::Gen<json> value_of(const world::Key<Owner>& key) {
                           [names = key.access.names(blank<Owner>())](std::size_t i) { return json(names[i]); });
     case Type::text: break;
   }
-  if (key.path == "name")
+  if (key.path == "name" || key.path == "stations.name")
     return rc::gen::map(rc::gen::nonEmpty(rc::gen::container<std::string>(rc::gen::inRange('a', 'z'))),
                         [](const std::string& s) { return json(s.substr(0, 100)); });
   if (key.path == "obstacles.cells")
