@@ -70,7 +70,7 @@ Connectivity::Connectivity(const world::World& start, Row& /*row*/) : tick_s_(st
 }
 
 // The robot that is this node now; none where nobody holds the target, or the station is dead.
-std::size_t Connectivity::robot_at(const Node& node, const Moment& now) const noexcept {
+std::size_t Connectivity::robot_at(const Node& node, const Moment& now) noexcept {
   const std::size_t robot = node.target ? now.holders[node.index] : node.index;
   return robot < now.world.size() && now.world.alive()[robot] != 0 ? robot : now.world.size();
 }
@@ -102,8 +102,7 @@ void Connectivity::observe(const Moment& now, Row& row) {
   ++ticks_;
   bool all = true;
   std::size_t from = now.world.size();
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    Pair& pair = pairs_[k];
+  for (Pair& pair : pairs_) {
     const std::size_t a = robot_at(nodes_[pair.a], now), b = robot_at(nodes_[pair.b], now);
     if (a < now.world.size() && a != from) search(now.world, from = a);
     if (a == now.world.size() || b == now.world.size() || hops_to_[b] == unreached) {

@@ -43,9 +43,8 @@ struct Cuts {
            cross_each_other(a, b, box.center - right + up, box.center + right - up);
   }
   bool operator()(const FloorMap& map) const {  // cell by cell
-    for (const Box& cell : cells_of(map))
-      if ((*this)(cell)) return true;
-    return false;
+    const std::vector<Box> cells = cells_of(map);
+    return std::any_of(cells.begin(), cells.end(), *this);
   }
 };
 

@@ -523,9 +523,9 @@ void check_laid_out(FaultList& list, const Scenario& scenario) {
   if (!list.failed() && !(compact && small && scenario.obstacles.empty())) check_placed(list, scenario);
 }
 
-// Where a station goes: within reach, and not through obstacles. Where it starts: in contact with the others.
-void check_stations_fit(FaultList& list, const Scenario& scenario) {
-  const double range = scenario.radio.range_m, radius = scenario.robot.radius_m;
+// Where a station goes: within reach, and not through obstacles.
+void check_courses(FaultList& list, const Scenario& scenario) {
+  const double radius = scenario.robot.radius_m;
   for (std::size_t s = 0; s < scenario.stations.size(); ++s) {
     const Station& station = scenario.stations[s];
     const std::string path = element("stations", s);
@@ -549,7 +549,13 @@ void check_stations_fit(FaultList& list, const Scenario& scenario) {
       from = to;
     }
   }
+}
+
+// Where it starts: in contact with the others.
+void check_stations_fit(FaultList& list, const Scenario& scenario) {
+  check_courses(list, scenario);
   if (list.failed() || scenario.stations.empty()) return;
+  const double range = scenario.radio.range_m;
   std::vector<Vec2> points = place(scenario).position;
   const std::size_t robots = points.size();
   for (const Station& station : scenario.stations) points.push_back(station.position);

@@ -42,7 +42,7 @@ class Connectivity {
     std::size_t a = 0, b = 0;  // nodes
     std::uint64_t ticks = 0;   // connected
   };
-  [[nodiscard]] std::size_t robot_at(const Node& node, const Moment& now) const noexcept;
+  [[nodiscard]] static std::size_t robot_at(const Node& node, const Moment& now) noexcept;
   void search(const world::World& world, std::size_t from);
 
   double tick_s_;
