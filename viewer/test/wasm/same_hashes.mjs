@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { readFile, readdir } from 'node:fs/promises';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { module, native, open, scenarios, until } from './together.mjs';
+import { module, native, open, scenarios, until, withoutFiles } from './together.mjs';
 
 const ticks = 200;
 const huge = ['swarm-500.toml', 'swarm-1000.toml', 'swarm-10000.toml', 'benchmark-1000.toml', 'benchmark-10000.toml'];
@@ -22,7 +22,7 @@ async function compare(text, overrides = [], tickS = 0.1) {
 for (const file of (await readdir(scenarios)).sort()) {
   if (!file.endsWith('.toml') || huge.includes(file)) continue;
   test(`${file}: ${ticks} ticks`, async () => {
-    const text = await readFile(join(scenarios, file), 'utf8');
+    const text = await withoutFiles(join(scenarios, file));
     await compare(text, [], Number(/^tick_s = ([\d.]+)/m.exec(text)?.[1] ?? 0.1));
   });
 }

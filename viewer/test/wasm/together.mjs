@@ -27,6 +27,13 @@ export function open(text, overrides = [], name = 'scenario.toml') {
   return live;
 }
 
+/** A scenario's text with the cells of its maps in the place of their files: the browser has none. */
+export async function withoutFiles(path) {
+  const text = await readFile(path, 'utf8');
+  if (!/^(map|file) = /m.test(text)) return text;
+  return (await promisify(execFile)(program, ['validate', path, '--show', 'toml'], { maxBuffer: 1 << 26 })).stdout;
+}
+
 /** The columns of the run table that the program comes to with this scenario. */
 export async function native(text, overrides = []) {
   const at = await mkdtemp(join(tmpdir(), 'banyan-wasm-'));
