@@ -66,16 +66,18 @@ Node scalar(const yaml_node_t& node, Place place) {
   return {std::move(text), std::move(place)};
 }
 
-Node to_node(yaml_document_t& document, int index, const std::shared_ptr<const std::string>& origin,
-             std::size_t depth) {
+// `left`: how many nodes there may still be. Aliases make a small text a huge tree.
+Node to_node(yaml_document_t& document, int index, const std::shared_ptr<const std::string>& origin, std::size_t depth,
+             std::size_t& left) {
   const yaml_node_t* node = yaml_document_get_node(&document, index);
   const Place place{origin, static_cast<int>(node->start_mark.line) + 1};
+  if (left-- == 0) throw DocumentError({place, "", "has more than ten thousand values: no map"});
   if (depth > deepest_nesting) throw DocumentError({place, "", "nested too deeply, or with an anchor in itself"});
   if (node->type == YAML_SCALAR_NODE) return scalar(*node, place);
   if (node->type == YAML_SEQUENCE_NODE) {
     Node::Array items;
     for (auto* item = node->data.sequence.items.start; item != node->data.sequence.items.top; ++item)
-      items.push_back(to_node(document, *item, origin, depth + 1));
+      items.push_back(to_node(document, *item, origin, depth + 1, left));
     return {std::move(items), place};
   }
   if (node->type != YAML_MAPPING_NODE) return {Node::Other{}, place};
@@ -87,7 +89,7 @@ Node to_node(yaml_document_t& document, int index, const std::shared_ptr<const s
     std::string name(reinterpret_cast<const char*>(key->data.scalar.value), key->data.scalar.length);
     for (const auto& member : members)
       if (member.name == name) throw DocumentError({here, name, "is given twice"});
-    members.push_back({std::move(name), to_node(document, pair->value, origin, depth + 1)});
+    members.push_back({std::move(name), to_node(document, pair->value, origin, depth + 1, left)});
     members.back().value.place = here;
   }
   return {std::move(members), place};
@@ -98,7 +100,6 @@ Node to_node(yaml_document_t& document, int index, const std::shared_ptr<const s
 
 Node parse_yaml(const std::string& path, std::string_view text) {
   const auto origin = std::make_shared<const std::string>(path);
-  // Aliases make a small text a huge tree.
   if (text.size() > (std::size_t{1} << 16)) throw DocumentError({{origin, 0}, "", "is larger than 64 KiB: no map"});
   Parser source;
   yaml_parser_set_input_string(&source.parser, reinterpret_cast<const unsigned char*>(text.data()), text.size());
@@ -109,7 +110,8 @@ Node parse_yaml(const std::string& path, std::string_view text) {
     throw DocumentError({{origin, line}, "", std::string("this is not YAML: ") + (problem ? problem : "damaged")});
   }
   if (yaml_document_get_root_node(&loaded.document) == nullptr) throw DocumentError({{origin, 0}, "", "is empty"});
-  return to_node(loaded.document, 1, origin, 0);
+  std::size_t left = 10'000;
+  return to_node(loaded.document, 1, origin, 0, left);
 }
 
 }  // namespace banyan::config

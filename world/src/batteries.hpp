@@ -28,6 +28,11 @@ class Batteries {
     if (on()) levels_[i] = first_levels_[i];
   }
 
+  // It has a full one, and so takes no slot from others.
+  void fill(std::size_t i) noexcept {
+    if (on()) levels_[i] = 1.0;
+  }
+
   // Shares of a full battery, per robot; empty if there are no batteries.
   [[nodiscard]] std::span<const double> levels() const noexcept { return levels_; }
   // Per robot the place that charges it, -1: none; empty if there are no batteries.

@@ -101,7 +101,7 @@ std::optional<std::string> CellGrid::text_fault(std::string_view text) {
       fault = name + " has " + std::to_string(length) + " cells, those above have " + std::to_string(columns);
     columns = length;
     rows = std::min(rows + row.times, most_cells + 1);
-    if (!fault && (rows > most_cells || columns > most_cells || rows * columns > most_cells))
+    if (!fault && (rows > most_cells || columns > most_cells || (columns > 0 && rows > most_cells / columns)))
       fault = "has more than " + std::to_string(most_cells) + " cells, as of 4096 x 4096";
     return !fault;
   });

@@ -65,11 +65,7 @@ class CheckEventFits {
   void operator()(const Die& die) const { robot(die.robot); }
   void operator()(const Freeze& freeze) const {
     robot(freeze.robot);
-    const std::size_t first = free_robot_count(scenario_), after = first + scenario_.stations.size();
-    if (freeze.robot >= first && freeze.robot < after)
-      list_.fail(key_ + ".robot", "robot " + std::to_string(freeze.robot) + " is the station " +
-                                      scenario_.stations[freeze.robot - first].name +
-                                      ", which goes where its course says");
+    not_a_station(freeze.robot);
   }
   void operator()(const MoveTarget& move) const {
     target(move.target);
@@ -84,6 +80,7 @@ class CheckEventFits {
   }
   void operator()(const RemoveObstacle& remove) const { (void)obstacle(remove.obstacle); }
   void operator()(const Join& join) const {
+    not_a_station(join.robot);
     if (join.robot > before_.robots)
       list_.fail(key_ + ".robot", "the next robot to join at that time is " + std::to_string(before_.robots) +
                                       "; robots join in the order of their indices");
@@ -96,6 +93,13 @@ class CheckEventFits {
   template <class Other> void operator()(const Other& refers_to_nothing) const { static_cast<void>(refers_to_nothing); }
 
  private:
+  void not_a_station(std::size_t i) const {
+    if (scenario_.stations.empty()) return;
+    const std::size_t first = free_robot_count(scenario_);
+    if (i >= first && i - first < scenario_.stations.size())
+      list_.fail(key_ + ".robot", "robot " + std::to_string(i) + " is the station " +
+                                      scenario_.stations[i - first].name + ", which goes where its course says");
+  }
   void robot(std::size_t i) const {
     if (i >= before_.robots)
       list_.fail(key_ + ".robot",
@@ -105,6 +109,10 @@ class CheckEventFits {
     if (i >= before_.targets)
       list_.fail(key_ + ".target", "there is no target " + std::to_string(i) + " at that time; the last one is " +
                                        std::to_string(before_.targets - 1));
+    if (i >= before_.stations_to && scenario_.visits.positions)
+      list_.fail(key_ + ".target", "with visits only the targets of the start, 0 to " +
+                                       std::to_string(before_.stations_to - 1) +
+                                       ", can be moved or given up: the numbers of others depend on the run");
     if (i >= before_.stations_from && i < before_.stations_to)
       list_.fail(key_ + ".target", "target " + std::to_string(i) + " is where a station is, and goes with it");
   }

@@ -103,7 +103,7 @@ bool World::Impl::half_way() const noexcept {
   double now = 0.0;
   bool any = false;
   for (std::size_t t = 0; t < targets.size(); ++t) {
-    if (!targets[t].active) continue;
+    if (!targets[t].active || targets[t].visit || station_of(targets[t].worker) != nullptr) continue;
     any = true;
     at_first += courses[t].start_m;
     now += remaining_m(t);
@@ -113,7 +113,7 @@ bool World::Impl::half_way() const noexcept {
 
 // Whether every target is held and connected (tree_parts.hpp), as of the last step.
 bool World::Impl::complete() {
-  bool any = false;
+  bool any = visited > 0;
   if (!visits.empty()) return false;
   for (std::size_t t = 0; t < targets.size(); ++t) {
     if (!targets[t].active) continue;
@@ -245,7 +245,7 @@ void World::Impl::draw_victim(Kill::Of of, const EventQueue::Entry& entry) {
     if (!among(of, i) || rank-- > 0) continue;
     const RobotId parent = up_of(reports[i]);
     die(i);
-    if (of == Kill::Of::worker_and_parent && parent != nobody) die(parent);
+    if (of == Kill::Of::worker_and_parent && parent != nobody && station_of(parent) == nullptr) die(parent);
     return;
   }
 }
@@ -333,6 +333,11 @@ void World::Impl::add_events(Digest& digest) const noexcept {
   }
   if (!scenario.visits.positions) return;
   digest.add(visited);
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    digest.add(targets[t].visit);
+    digest.add(courses[t].until);
+    digest.add(courses[t].tried);
+  }
   for (const Visit& visit : visits) {
     digest.add(visit.place);
     digest.add(visit.tried);

@@ -181,7 +181,7 @@ void check_connect(FaultList& list, const Scenario& scenario) {
   const auto check = [&](const std::string& key, const std::string& name) {
     if (std::find(names.begin(), names.end(), name) != names.end()) return;
     const bool number = !name.empty() && name.size() < 7 && name.find_first_not_of("0123456789") == std::string::npos;
-    if (number && std::stoul(name) < targets) return;
+    if (number && std::stoul(name) < targets && std::to_string(std::stoul(name)) == name) return;
     const std::string_view near = nearest_name(name, names);
     list.fail(key, "there is no station \"" + name + "\"" +
                        (near.empty() ? "" : "; did you mean \"" + std::string(near) + "\"?") +
@@ -560,7 +560,13 @@ void check_stations_fit(FaultList& list, const Scenario& scenario) {
   const std::size_t robots = points.size();
   for (const Station& station : scenario.stations) points.push_back(station.position);
   Groups groups(points.size());
-  each_pair(points, range, [&](std::size_t i, std::size_t j, double /*distance*/) {
+  const double touch = 2.0 * scenario.robot.radius_m;
+  each_pair(points, std::max(range, touch), [&](std::size_t i, std::size_t j, double apart) {
+    if (j >= robots && apart < touch)
+      list.fail(element("stations", j - robots) + ".position_m",
+                scenario.stations[j - robots].name + " at " + at(points[j]) + " is " + short_text(apart) +
+                    " m from a robot or another station; bodies need two radii, " + short_text(touch) + " m");
+    if (apart >= range) return true;
     const auto cuts = [&](const Obstacle& o) { return blocks(o, points[i], points[j]); };
     const bool hidden =
         scenario.radio.line_of_sight && std::any_of(scenario.obstacles.begin(), scenario.obstacles.end(), cuts);
@@ -582,6 +588,12 @@ void check_swarm_fits(FaultList& list, const Scenario& scenario) {
   if (robots > most("swarm.robots")) {
     list.fail("swarm.redundancy", "asks for " + std::to_string(robots) + " robots; at most " +
                                       std::to_string(most("swarm.robots")) + " are possible");
+    return;
+  }
+  if (place_count(scenario) > most("swarm.robots")) {
+    list.fail("swarm.robots", "with the stations and the robots that join there are " +
+                                  std::to_string(place_count(scenario)) + "; at most " +
+                                  std::to_string(most("swarm.robots")) + " are possible");
     return;
   }
   if (scenario.swarm.root && *scenario.swarm.root >= robots)

@@ -89,10 +89,9 @@ World::Impl::Impl(const Scenario& s, const Algorithm& algorithm_)
   free_robots = free_robot_count(s);
   arrived = robot_count(s);
   for (const Vec2 place : s.visits.places()) visits.push_back({place, 0});
-  for (const Station& station : s.stations) {
-    names.resize(free_robots);
-    names.push_back(station.name);
-  }
+  if (!s.stations.empty()) names.resize(free_robots);
+  for (const Station& station : s.stations) names.push_back(station.name);
+  fill_stations();
   const Assignment assignment = assign(s, poses, positions);
   alive.assign(n, 0);
   std::fill_n(alive.begin(), arrived, std::uint8_t{1});
@@ -205,10 +204,14 @@ void World::Impl::move_stations() {
   }
 }
 
+void World::Impl::fill_stations() noexcept {
+  for (std::size_t s = 0; s < scenario.stations.size(); ++s) batteries.fill(free_robots + s);
+}
+
 // A robot without charge is dead where it stands. Stations have power of their own.
 void World::Impl::run_down(double seconds) {
   const std::size_t empty = batteries.pass(seconds, moving, poses.position, alive);
-  for (std::size_t s = 0; s < scenario.stations.size(); ++s) batteries.renew(free_robots + s);
+  fill_stations();
   if (empty == 0) return;
   for (std::size_t i = 0; i < alive.size(); ++i) {
     if (alive[i] == 0 || batteries.levels()[i] > 0.0) continue;

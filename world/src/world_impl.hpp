@@ -68,6 +68,7 @@ struct World::Impl {
   void happen();  // events.cpp
   void act();
   void move_stations();
+  void fill_stations() noexcept;
   void run_down(double seconds);
   void broadcast(Executor& executor);
   void find_links(Executor& executor);

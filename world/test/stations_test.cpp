@@ -116,6 +116,14 @@ TEST(Stations, NothingMovesThemFromTheirCourse) {
     }
 }
 
+TEST(Stations, AreCalledByTheirNames) {
+  const World world(between());
+  ASSERT_EQ(world.names().size(), 11U);
+  EXPECT_EQ(world.names()[0], "");
+  EXPECT_EQ(world.names()[9], "base");
+  EXPECT_EQ(world.names()[10], "vehicle");
+}
+
 TEST(Stations, AllAlgorithmsKeepThemJoinedOnASlowCourse) {
   for (const char* algorithm : {"convoy", "caravan", "outwards", "inwards"}) {
     Scenario s = between(algorithm);
@@ -213,7 +221,8 @@ TEST(Stations, ABaseThatChargesCostsNoRobot) {
   s.battery.charge_per_s = 0.01;  // empty after 100 s
   s.battery.capacity_j = 1000.0;
   s.battery.charge_w = 100.0;
-  s.battery.slots = 4;
+  s.battery.slots = 1;
+  s.battery.start_charge = 0.6;
   s.battery.places = {s.stations[0].position};
   World world(s);
   EXPECT_EQ(world.targets().size(), 1U);
@@ -280,6 +289,18 @@ TEST(Stations, WhatIsWrongWithThemIsSaid) {
        [](Scenario& s) {
          s.mission.connect = {{"base", "vehicle"}, {"base", "base"}};
        }},
+      {"mission.connect[0]: there is no station \"00\"",
+       [](Scenario& s) {
+         s.targets = std::vector<Vec2>{{1.0, 1.0}}, s.mission.connect = {{"base", "00"}};
+       }},
+      {"stations[1].position_m: vehicle at (0, -0.6) is 0 m from",
+       [](Scenario& s) { s.stations[1].position = s.stations[0].position; }},
+      {"events[0].robot: robot 9 is the station base",
+       [](Scenario& s) {
+         s.events = {{.time_s = 1.0, .action = Join{9, {1.0, 1.0}}}};
+       }},
+      {"swarm.robots: with the stations and the robots that join there are 65537",
+       [](Scenario& s) { s.swarm.robots = 65535; }},
       {"events[0].robot: robot 10 is the station vehicle",
        [](Scenario& s) { s.events = {{.time_s = 1.0, .action = Freeze{10}}}; }},
       {"events[0].target: target 1 is where a station is",

@@ -72,6 +72,16 @@ TEST(Visits, ARobotThatDiesOnItsWayIsReplaced) {
   EXPECT_EQ(world.visited(), places.size());
 }
 
+TEST(Visits, AMissionOfVisitsAloneIsCompleteAndItsEventsHappen) {
+  Scenario s = visiting("convoy");
+  s.targets = std::vector<Vec2>{};
+  s.events = {{.time_s = 1.0, .when = Event::When::complete, .action = Die{0}}};
+  World world(s);
+  for (int t = 0; t < 4000 && world.deaths() == 0; ++t) world.step();
+  EXPECT_EQ(world.visited(), places.size());
+  EXPECT_EQ(world.deaths(), 1U);
+}
+
 TEST(Visits, AreAPartOfTheHash) {
   Scenario s = visiting("convoy");
   World a(s);
