@@ -231,6 +231,22 @@ TEST_F(Maps, OfRosSayWhatIsWrongInWhichLine) {
 }
 
 // Whatever is in a file, it is a problem and no crash.
+// Nine lists of ten aliases each: a kilobyte that would become a thousand million values.
+TEST_F(Maps, OfRosWithAliasesUponAliasesAreRefused) {
+  NEEDS_YAML();
+  std::string yaml = "a0: &a0 [1, 1]\n";
+  for (int level = 1; level <= 9; ++level) {
+    const std::string below = "*a" + std::to_string(level - 1);
+    yaml += "a" + std::to_string(level) + ": &a" + std::to_string(level) + " [" + below;
+    for (int k = 1; k < 10; ++k) yaml += ", " + below;
+    yaml += "]\n";
+  }
+  write("bomb.yaml", yaml);
+  std::string said;
+  for (const Problem& problem : load("map = \"bomb.yaml\"\n").problems) said += to_string(problem) + "\n";
+  EXPECT_NE(said.find("has more than ten thousand values: no map"), std::string::npos) << said;
+}
+
 TEST_F(Maps, WithDamagedBytesAreRefusedOrRead) {
   for (const char* name : {"floor.png", "floor.bmp", "floor.pgm", "floor.yaml", "floor.map"}) {
     const std::string whole = read_file(maps + "/" + name, 1U << 20);

@@ -332,7 +332,6 @@ void World::Impl::add_events(Digest& digest) const noexcept {
     digest.add(courses[t].speed_m_s);
   }
   if (!scenario.visits.positions) return;
-  digest.add(visited);
   for (std::size_t t = 0; t < targets.size(); ++t) {
     digest.add(targets[t].visit);
     digest.add(courses[t].until);

@@ -241,7 +241,12 @@ std::string target_key(const Scenario& scenario, std::size_t missions, std::size
     for (std::size_t s = 0; s < scenario.stations.size(); ++s)
       if (!scenario.stations[s].root && left-- == 0) return element("stations", s) + ".position_m";
   }
-  if (i >= missions) return element("battery.places_m", i - missions);
+  if (i >= missions) {
+    const std::vector<Vec2>& places = scenario.battery.places;
+    const Vec2 held = held_charging_places(scenario)[i - missions];
+    return element("battery.places_m",
+                   static_cast<std::size_t>(std::find(places.begin(), places.end(), held) - places.begin()));
+  }
   return std::holds_alternative<std::vector<Vec2>>(scenario.targets) ? element("targets.positions_m", i) : "targets";
 }
 

@@ -474,11 +474,6 @@ std::span<const Obstacle> World::obstacles() const noexcept { return impl_->obst
 bool World::line_of_sight() const noexcept { return impl_->line_of_sight; }
 const Station* World::station(std::size_t i) const noexcept { return impl_->station_of(i); }
 std::size_t World::visited() const noexcept { return impl_->visited; }
-std::vector<Vec2> World::waiting_visits() const {
-  std::vector<Vec2> places;
-  for (const Visit& visit : impl_->visits) places.push_back(visit.place);
-  return places;
-}
 std::optional<std::size_t> World::holder(std::size_t target) const noexcept { return impl_->holder(target); }
 std::size_t World::deaths() const noexcept { return impl_->deaths; }
 std::span<const double> World::charge() const noexcept { return impl_->batteries.levels(); }

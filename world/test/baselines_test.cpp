@@ -179,15 +179,7 @@ TEST_P(Baseline, TheSameWorldIsTheSameOnAnyNumberOfThreads) {
     Scenario s = trying(GetParam(), seed);
     s.swarm.robots = 40;
     s.events = {{.time_s = 4.0, .action = Kill{.count = 3}}, {.time_s = 6.0, .action = SetLoss{0.4}}};
-    World one(s), two(s), four(s);
-    Executor pair(2), team(4);
-    for (int t = 0; t < 120; ++t) {
-      one.step();
-      two.step(pair);
-      four.step(team);
-      ASSERT_EQ(one.hash(), two.hash()) << seed << ", tick " << t;
-      ASSERT_EQ(one.hash(), four.hash()) << seed << ", tick " << t;
-    }
+    expect_the_same_on_any_number_of_threads(s, 120, GetParam() + ", seed " + std::to_string(seed));
   }
 }
 

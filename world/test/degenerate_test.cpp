@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "banyan/world/faults.hpp"
-#include "banyan/world/threads.hpp"
 #include "worlds.hpp"
 
 namespace banyan::world {
@@ -81,16 +80,7 @@ TEST(Degenerate, IsFiniteAndTheSameOnAnyNumberOfThreads) {
       s.radio.line_of_sight = sight;
       kind.change(s);
       for (const Fault& fault : faults(s)) ASSERT_TRUE(fault.warning) << kind.what << ": " << fault.text;
-      World one(s), two(s), four(s);
-      Executor pair(2), crowd(4);
-      for (int t = 0; t < 400; ++t) {
-        one.step();
-        two.step(pair);
-        four.step(crowd);
-        for (const Vec2 p : one.positions()) ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y)) << kind.what;
-      }
-      EXPECT_EQ(one.hash(), two.hash()) << kind.what;
-      EXPECT_EQ(one.hash(), four.hash()) << kind.what;
+      expect_the_same_on_any_number_of_threads(s, 400, kind.what);
     }
 }
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "banyan/world/faults.hpp"
-#include "banyan/world/threads.hpp"
 #include "worlds.hpp"
 
 namespace banyan::world {
@@ -177,6 +176,37 @@ TEST(Stations, TakeTheirPlacesBackFromRobotsThatThoughtThemLost) {
   }
 }
 
+// Nobody reaches what it announces, as long as it stands; a worker would give up.
+TEST(Stations, KeepTheirPlacesHoweverLongTheyAnnounceAnother) {
+  for (const char* algorithm : {"convoy", "caravan"}) {
+    Scenario s = between(algorithm);
+    s.stations[1].start_s = 500.0;
+    s.stations[1].announce_s = 600.0;
+    World world(s);
+    for (int t = 0; t < 4900; ++t) {
+      world.step();
+      ASSERT_EQ(world.reports()[10].serves, 10U) << algorithm << " at " << world.time_s();
+    }
+  }
+}
+
+// The root gives targets up for which there are not robots enough.
+TEST(Stations, KeepTheirPlacesWhereRobotsAreTooFew) {
+  for (const char* algorithm : {"convoy", "caravan"}) {
+    Scenario s = between(algorithm, 3);
+    s.swarm.robots = 5;
+    s.targets = std::vector<Vec2>{{-4.0, 0.0}, {0.0, -3.0}};
+    s.stations[1].course = {{3.4, 0.5}};
+    s.stations[1].speed_m_s = 0.02;
+    World world(s);
+    for (int t = 0; t < 2000; ++t) {
+      world.step();
+      ASSERT_EQ(world.reports()[5].serves, 5U) << algorithm << " at " << world.time_s();
+      ASSERT_EQ(world.reports()[6].serves, 6U) << algorithm << " at " << world.time_s();
+    }
+  }
+}
+
 TEST(Stations, ARootStaysTheRootThoughItIsFarFromTheCentroid) {
   for (const char* algorithm : {"convoy", "caravan", "outwards", "inwards"}) {
     Scenario s = between(algorithm);
@@ -214,6 +244,21 @@ TEST(Stations, ThoseThatAreDrawnToDieAreRobots) {
   EXPECT_EQ(world.alive()[9] + world.alive()[10], 2);
 }
 
+TEST(Stations, AWorkerThatDiesWithItsParentLeavesAStationThatIsIt) {
+  Scenario s = between();
+  s.stations.resize(1);
+  s.stations[0].root = true;
+  s.targets = std::vector<Vec2>{{0.9, -0.6}};
+  World world(s);
+  for (int t = 0; t < 100; ++t) world.step();
+  ASSERT_TRUE(world.holder(0).has_value());
+  ASSERT_EQ(up_of(world.reports()[*world.holder(0)]), 9U) << "its parent is another: the test shows nothing";
+  world.intervene({.action = Kill{.of = Kill::Of::worker_and_parent}});
+  world.step();
+  EXPECT_EQ(world.deaths(), 1U);
+  EXPECT_EQ(world.alive()[9], 1);
+}
+
 TEST(Stations, ABaseThatChargesCostsNoRobot) {
   Scenario s = between();
   s.stations.resize(1);
@@ -226,19 +271,21 @@ TEST(Stations, ABaseThatChargesCostsNoRobot) {
   s.battery.places = {s.stations[0].position};
   World world(s);
   EXPECT_EQ(world.targets().size(), 1U);
-  for (int t = 0; t < 3000; ++t) world.step();
+  for (int t = 0; t < 3000; ++t) {
+    world.step();
+    ASSERT_EQ(world.charged_at()[9], -1) << "it took the slot of a robot at " << world.time_s();
+  }
   EXPECT_EQ(world.deaths(), 0U);
   EXPECT_EQ(world.holder(0), 9U);
 }
 
 TEST(Stations, TheSameOnAnyNumberOfThreadsAndInACopy) {
   const Scenario s = between("convoy", 7);
-  World one(s), four(s);
-  Executor threads(4);
-  for (int t = 0; t < 200; ++t) one.step(), four.step(threads);
+  expect_the_same_on_any_number_of_threads(s, 200, "stations");
+  World one(s);
+  for (int t = 0; t < 200; ++t) one.step();
   World copy = one;
-  for (int t = 0; t < 100; ++t) one.step(), four.step(threads), copy.step();
-  EXPECT_EQ(one.hash(), four.hash());
+  for (int t = 0; t < 100; ++t) one.step(), copy.step();
   EXPECT_EQ(one.hash(), copy.hash());
 }
 

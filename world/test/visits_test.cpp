@@ -90,6 +90,11 @@ TEST(Visits, AreAPartOfTheHash) {
   a.step();
   b.step();
   EXPECT_NE(a.hash(), b.hash());
+  s = visiting("convoy");
+  World c(s), d((s.visits.patience_s = 30.0, s));
+  EXPECT_EQ(c.hash(), d.hash());
+  for (int t = 0; t < 30; ++t) c.step(), d.step();
+  EXPECT_NE(c.hash(), d.hash()) << "one is on its way, and will be given up at another time";
 }
 
 }  // namespace

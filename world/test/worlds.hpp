@@ -2,7 +2,10 @@
 // Worlds that several tests share, and what an onlooker can tell of the trees in them.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <numeric>
@@ -13,6 +16,7 @@
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/random.hpp"
+#include "banyan/world/threads.hpp"
 #include "banyan/world/world.hpp"
 #include "plain_scenario.hpp"
 
@@ -49,6 +53,20 @@ inline Scenario hostile(const std::string& algorithm, std::size_t robots, std::u
 
 inline Poses one_robot(Vec2 position = {}, double heading_rad = 0.0) {
   return {{position}, {unit_vector(heading_rad)}};
+}
+
+// Of one, two and four threads, after every tick.
+inline void expect_the_same_on_any_number_of_threads(const Scenario& s, int ticks, const std::string& what) {
+  World one(s), two(s), four(s);
+  Executor pair(2), team(4);
+  for (int t = 0; t < ticks; ++t) {
+    one.step();
+    two.step(pair);
+    four.step(team);
+    ASSERT_EQ(one.hash(), two.hash()) << what << ", tick " << t;
+    ASSERT_EQ(one.hash(), four.hash()) << what << ", tick " << t;
+    for (const Vec2 p : one.positions()) ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y)) << what;
+  }
 }
 
 // What robot i broadcast last, as it travels.

@@ -11,8 +11,7 @@ constexpr int echo_rounds = 64;  // by then echoes have ended, and the count has
 // My edge is worth a spare, and none has been in reach for a while.
 bool has_post(Robot& robot) noexcept {
   State& self = robot.self;
-  constexpr float ahead = 0.55F;  // C: a station goes on while the spare comes
-  const float from = robot.is_station ? ahead : robot.params.post_distance;
+  const float from = robot.is_station ? station_asks_from : robot.params.post_distance;
   const bool needs = self.role != Role::spare && robot.parent >= 0 && robot.is_wanted() &&
                      robot.stretched(robot.range(robot.parent)) > from;
   if (self.leaving && self.role != Role::spare) return true;

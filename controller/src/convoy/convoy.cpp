@@ -103,10 +103,8 @@ bool asks_for_relief(const ConvoyRobot& robot) noexcept {
   return robot.power != nullptr && (wants_relief(*robot.power) || is_stuck(*robot.power));
 }
 
-// A station goes on while the spare comes.
 float asks_from(const ConvoyRobot& robot) noexcept {
-  constexpr float ahead = 0.55F;  // C
-  return robot.is_station ? ahead : robot.params.recruitment_distance;
+  return robot.is_station ? station_asks_from : robot.params.recruitment_distance;
 }
 
 // The need is not passed up the tree: a chain that is towed brings its slack to where the spares are by itself.
@@ -127,7 +125,6 @@ bool may_call(const ConvoyRobot& robot) noexcept {
   if (asks_for_relief(robot)) return true;
   if (is_planned(robot.self)) return false;  // spares would come along the chains and be in the way
   const ConvoyParams& p = robot.params;
-  // A station does not wait for a spare.
   const bool early = robot.self.corners.landmarks.size > 0 || robot.is_station;
   const float from = early ? asks_from(robot) : p.call_distance;
   if (robot.parent < 0) return false;

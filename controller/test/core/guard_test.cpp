@@ -88,7 +88,7 @@ RC_GTEST_PROP(Guard, BothEndsTogetherKeepTheEdgeWithinDelta, ()) {
     a = next_a;
     // Across the edge it grows by (v t)^2 / 2d at most, and what is too long shrinks in the next round.
     const double across = 2.0 * std::pow(static_cast<double>(m.way_in_a_round()), 2.0) / static_cast<double>(longest);
-    RC_ASSERT(distance(a, b) <= static_cast<double>(longest) + across + 5e-6);  // in single precision
+    RC_ASSERT(distance(a, b) <= static_cast<double>(longest) + across + 1e-6);
   }
 }
 

@@ -130,10 +130,9 @@ struct Station {
   double pause_s = 0.0;         // at each of them
   double start_s = 0.0;         // it leaves then
   bool loop = false;            // from the last way point it goes on to the first place, and so on
-  std::vector<double> times{};  // s, instead of the four above: when it is at each way point
+  std::vector<double> times{};  // s, instead of speed, pauses and loop: when it is at each way point
   double announce_s = 0.0;      // so long ahead it tells the swarm where it will be
   bool root = false;            // it is the tree's first root, and stays that
-  friend bool operator==(const Station&, const Station&) = default;
 };
 
 // Places at which a robot has to be once: as soon as one is there, it is free again. Spares are sent, to one place at a
@@ -143,7 +142,6 @@ struct Visits {
   std::optional<std::size_t> at_once{};
   std::optional<double> patience_s{};  // then another place is tried first
   [[nodiscard]] std::vector<Vec2> places() const { return positions.value_or(std::vector<Vec2>{}); }
-  friend bool operator==(const Visits&, const Visits&) = default;
 };
 
 // The alternatives of a variant carry the name by which a file chooses them.

@@ -79,9 +79,8 @@ class World {
   [[nodiscard]] std::span<const Target> targets() const noexcept;
   // The station that robot i is; null if it is none. Stations never move as the algorithm wants.
   [[nodiscard]] const Station* station(std::size_t i) const noexcept;
-  // Of scenario().visits: places at which a robot has been, and those to which nobody is sent at present.
+  // Places of scenario().visits at which a robot has been.
   [[nodiscard]] std::size_t visited() const noexcept;
-  [[nodiscard]] std::vector<Vec2> waiting_visits() const;
   // As they are now; scenario() has them as they were at the start.
   [[nodiscard]] std::span<const Obstacle> obstacles() const noexcept;
   [[nodiscard]] bool line_of_sight() const noexcept;

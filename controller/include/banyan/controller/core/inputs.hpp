@@ -23,6 +23,9 @@ struct Odometry {
   float turn_rad = 0.0F;  // to the left
 };
 
+// A station does not wait for a robot that comes between it and its parent: its edge asks for one from here on, C.
+inline constexpr float station_asks_from = 0.55F;
+
 // What the mission tells a robot, over whatever channel the host has.
 struct Orders {
   // This robot has been sent to a target. It stays sent until this is false again. A robot may
